@@ -1,0 +1,1 @@
+"""HTTP: routes, problems, negotiation. Nothing else knows of it."""

@@ -1,0 +1,1 @@
+"""Other people's documents, to and from programs."""

@@ -1,0 +1,1 @@
+"""Hyperedges as Bezier curves: the paper's CURVES, and what keeps hyperedges apart."""

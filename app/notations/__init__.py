@@ -1,0 +1,1 @@
+"""How kinds look: data files, and their loader."""

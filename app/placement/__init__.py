@@ -1,0 +1,1 @@
+"""Items without a place get one."""

@@ -1,0 +1,41 @@
+"""Where everything is: what placement hands to hyperedge layout and to the scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from app.arrays import Floats, Indices
+from app.solids.solid import Solid, Text
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LabelPlace:
+    """A label's solid letters, and where they are in their item's own axes."""
+
+    text: Text
+    position: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Placement:
+    """The n items of a program, and the a attachments of its h hyperedges, in the world.
+
+    ``centers`` (n, 3), ``rotations`` (n, 4) as quaternions x, y, z, w, ``sizes`` (n, 3) in the
+    items' own axes; ``solids`` and ``labels`` are one for each item, a label ``None`` where there
+    is nothing to write. ``attachment_positions`` (a, 3) and unit, outward
+    ``attachment_directions`` (a, 3) follow the document's order; those of hyperedge k are
+    ``attachment_starts[k]`` to ``attachment_starts[k + 1]`` (h + 1,), and ``attachment_items``
+    (a,) are their items' numbers. ``radii`` (h,) are the tubes'. Document units, z up.
+    """
+
+    centers: Floats
+    rotations: Floats
+    sizes: Floats
+    solids: tuple[Solid, ...]
+    labels: tuple[LabelPlace | None, ...]
+    attachment_positions: Floats
+    attachment_directions: Floats
+    attachment_starts: Indices
+    attachment_items: Indices
+    radii: Floats

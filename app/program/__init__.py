@@ -1,0 +1,1 @@
+"""The document: what a program may say, and whether it says it consistently."""

@@ -1,0 +1,140 @@
+"""The document (`Program`) and its parts, as they stand in JSON."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from app.program.base import Color, Id, Label, Part, Vector
+from app.program.shapes import Length, Shape
+
+Degrees = Annotated[float, Field(ge=-360_000, le=360_000, allow_inf_nan=False)]
+MaterialName = Literal["plastic", "metal", "glass", "matte"]
+
+
+class AttachmentPoint(Part):
+    """A named place on an item where a hyperedge may end."""
+
+    id: Id
+    position: Vector = Field(description="Relative to the item's centre, in its own axes.")
+    direction: Vector = Field((0.0, 0.0, 1.0), description="Outward, in the item's own axes.")
+
+
+class Item(Part):
+    """A thing in the program."""
+
+    id: Id
+    kind: Id | None = Field(None, description="What it means; the notation says how that looks.")
+    label: Label | None = None
+    parent: Id | None = Field(None, description="The item that contains this one.")
+    shape: Shape | None = None
+    position: Vector | None = Field(
+        None, description="Centre, relative to the parent's centre (a root: to the world)."
+    )
+    rotation: tuple[Degrees, Degrees, Degrees] | None = Field(
+        None, description="Degrees about x, then y, then z, relative to the parent."
+    )
+    material: MaterialName | None = None
+    color: Color | None = None
+    attachment_points: tuple[AttachmentPoint, ...] = ()
+    data: dict[str, Any] = Field(
+        default_factory=dict, description="The editor's own; handed through to glTF extras."
+    )
+
+
+class Attachment(Part):
+    """One end of a hyperedge."""
+
+    item: Id
+    point: Id | None = Field(
+        None, description="Left out: the middle of the item's top face."
+    )
+
+
+class Hyperedge(Part):
+    """A relation that joins two or more attachments."""
+
+    id: Id
+    kind: Id | None = None
+    label: Label | None = None
+    attachments: tuple[Attachment, ...] = Field(min_length=2)
+    color: Color | None = None
+    radius: Length | None = None
+    join_height: float | None = Field(
+        None,
+        ge=-1e6,
+        le=1e6,
+        allow_inf_nan=False,
+        description="World z of the join plane; left out, Tubeloom chooses.",
+    )
+    material: MaterialName | None = None
+    data: dict[str, Any] = Field(default_factory=dict)
+
+
+class LineUp(Part):
+    """Siblings without positions that stand in one row or column, in the order given."""
+
+    type: Literal["row", "column"]
+    items: tuple[Id, ...] = Field(min_length=2)
+
+
+class Layout(Part):
+    """How places and curves are found."""
+
+    curves: Literal["prose", "symbolic"] = Field(
+        "prose", description="Which reading of the paper's CURVES (its words or its symbols)."
+    )
+    fidelity: Literal["best", "paper"] = Field(
+        "best", description="'paper': exactly its curves. 'best': tubes leave items squarely."
+    )
+    closest: Literal["space", "plane"] = Field(
+        "space", description="Whether CLOSEST measures in three dimensions or seen from above."
+    )
+    tube: Literal["swept", "patches"] = Field(
+        "swept", description="A swept circle, or the paper's pair of Bezier patches."
+    )
+    patch_rule: Literal["paper", "fitted"] = Field(
+        "paper", description="Where patch control points go: by the paper, or fitted to the tube."
+    )
+    clearance: float = Field(
+        0.05, ge=0, le=1e5, allow_inf_nan=False, description="Wanted between tubes' surfaces."
+    )
+    constraints: tuple[LineUp, ...] = ()
+
+
+class Style(Part):
+    """How the scene looks as a whole."""
+
+    palette: str = Field("glasbey", max_length=100)
+    background: Color | Literal["transparent"] = "#ffffff"
+    labels: bool = True
+    ground: bool = True
+
+
+class View(Part):
+    """Where the scene is seen from."""
+
+    projection: Literal["perspective", "orthographic"] = "perspective"
+    from_: Vector = Field(
+        (0.0, -1.0, 0.8), alias="from", description="Direction from the scene to the camera."
+    )
+    field_of_view: float = Field(
+        30.0, ge=1, le=120, allow_inf_nan=False, description="Vertical, in degrees."
+    )
+    margin: float = Field(
+        0.05, ge=0, le=0.45, allow_inf_nan=False, description="Free share of the picture's edge."
+    )
+
+
+class Program(Part):
+    """A document: items, and the hyperedges that join their attachment points."""
+
+    name: Label | None = None
+    notation: str = Field("plain", max_length=100)
+    items: tuple[Item, ...]
+    hyperedges: tuple[Hyperedge, ...] = ()
+    layout: Layout = Layout()
+    style: Style = Style()
+    view: View = View()
+    data: dict[str, Any] = Field(default_factory=dict)

@@ -1,0 +1,1 @@
+"""What there is to see: nodes, materials, palette, lights, camera."""

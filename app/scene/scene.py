@@ -1,0 +1,93 @@
+"""The scene: what every output draws or writes. z is up; lengths in document units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from app.arrays import Floats
+from app.solids.mesh import Mesh
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """How a surface answers to light: the metallic-roughness model of glTF 2.0.
+
+    ``base_color`` is linear RGB and opacity, 0 to 1.
+    """
+
+    name: str
+    base_color: tuple[float, float, float, float]
+    metallic: float
+    roughness: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Primitive:
+    """Triangles of one material (its number in ``Scene.materials``)."""
+
+    mesh: Mesh
+    material: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Node:
+    """An item, a hyperedge or the ground.
+
+    ``primitives`` are in the node's own axes; ``translation`` and ``rotation`` (quaternion x, y,
+    z, w) place them in the world. ``shows`` says of what kind it is; ``extras`` carry id, kind,
+    label and data.
+    """
+
+    name: str
+    shows: Literal["item", "hyperedge", "ground"]
+    primitives: tuple[Primitive, ...]
+    translation: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+    extras: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Camera:
+    """A camera at ``position`` that looks at ``target``, ``up`` being up in the picture.
+
+    ``vertical_angle`` (radians) is that of a perspective camera; ``height`` (document units) is
+    what an orthographic one sees from bottom to top. Exactly one of them is set.
+    """
+
+    position: tuple[float, float, float]
+    target: tuple[float, float, float]
+    up: tuple[float, float, float]
+    aspect: float
+    near: float
+    far: float
+    vertical_angle: float | None = None
+    height: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Light:
+    """A light that shines along ``direction``, like a sun; colour is linear RGB."""
+
+    name: str
+    direction: tuple[float, float, float]
+    color: tuple[float, float, float]
+    illuminance: float
+    casts_shadows: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scene:
+    """Everything to be seen. ``background`` is linear RGB, or ``None`` for transparent.
+
+    ``bounds`` (2, 3) hold the items and hyperedges, without the ground.
+    """
+
+    name: str
+    nodes: tuple[Node, ...]
+    materials: tuple[Material, ...]
+    lights: tuple[Light, ...]
+    camera: Camera
+    background: tuple[float, float, float] | None
+    bounds: Floats

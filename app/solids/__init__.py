@@ -1,0 +1,1 @@
+"""Items as meshes, and how much room they take."""

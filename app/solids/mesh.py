@@ -1,0 +1,27 @@
+"""Triangles with normals: what solids and tubes become."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.arrays import Faces, Floats, Singles
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mesh:
+    """Triangles.
+
+    ``vertices`` (v, 3) and unit ``normals`` (v, 3) are float32, ``faces`` (f, 3) uint32 with
+    corners counter-clockwise seen from outside.
+    """
+
+    vertices: Singles
+    normals: Singles
+    faces: Faces
+
+    @property
+    def bounds(self) -> Floats:
+        """Smallest and largest corner, (2, 3)."""
+        return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)], dtype=np.float64)
