@@ -1,0 +1,68 @@
+# Tubeloom. `make run` sets everything up and serves; `make test` sets everything up and tests.
+
+PYTHON ?= $(shell for python in python3.13 python3.12 python3.11 python3; do \
+    $$python -c 'import sys; raise SystemExit(not (3, 11) <= sys.version_info < (3, 14))' \
+    2>/dev/null && command -v $$python && break; done)
+VENV := .venv
+BIN := $(VENV)/bin
+PORT ?= 8000
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+
+.PHONY: help run setup setup-dev test check format bench openapi palettes lock clean
+
+help:  ## list what can be made
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  \1\t/' | expand -t 14
+
+run: setup  ## set up what is missing, and serve on http://127.0.0.1:$(PORT)
+	@exec $(BIN)/tubeloom serve --port $(PORT)
+
+setup: $(VENV)/runtime.done  ## a virtual environment with what serving needs
+setup-dev: $(VENV)/dev.done  ## … and what testing needs
+
+$(VENV)/bin/python:
+	@test -n "$(PYTHON)" || { echo "Tubeloom needs Python 3.11, 3.12 or 3.13." >&2; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh | $(VENV)/bin/python
+	tools/system-packages.sh
+	$(PIP) install --require-hashes -r requirements.lock
+	$(PIP) install --no-deps --editable .
+	@touch $@
+
+$(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json $(VENV)/runtime.done
+	tools/system-packages.sh test
+	$(PIP) install --require-hashes -r requirements-dev.lock
+	cd tests/node && npm ci --no-audit --no-fund --loglevel=error
+	@touch $@
+
+$(VENV)/bench.done: requirements-bench.lock $(VENV)/dev.done
+	$(PIP) install --require-hashes -r requirements-bench.lock
+	@touch $@
+
+test: check  ## everything that must hold: checks, then all tests
+	$(BIN)/python -m pytest -n 2 --dist loadgroup
+
+check: setup-dev  ## format, lint, types, import rules
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: setup-dev  ## put the code in order
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+bench: $(VENV)/bench.done  ## measure speed, beside peers, and print the tables
+	$(BIN)/python -m benchmarks
+
+openapi: setup-dev  ## write openapi.json anew
+	$(BIN)/tubeloom openapi > openapi.json
+
+palettes: setup-dev  ## compute the palettes anew
+	$(BIN)/python tools/palettes.py
+
+lock:  ## resolve dependencies anew (needs uv)
+	tools/lock.sh
+
+clean:  ## remove everything that can be made again
+	rm -rf $(VENV) tests/node/node_modules .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks

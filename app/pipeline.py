@@ -1,0 +1,204 @@
+"""From a posted document to an answer: the rooms put one after another. Read this first."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from app import __version__
+from app.arrays import Floats
+from app.errors import PictureTooLarge
+from app.formats import registry
+from app.hyperedges.route import route
+from app.hyperedges.routing import Routing
+from app.notations.loader import load_notation
+from app.output.media import SceneFormat
+from app.placement.place import place
+from app.placement.placement import Placement
+from app.program.digest import canonical
+from app.program.model import Program
+from app.scene.assemble import assemble
+from app.scene.scene import Scene
+from app.settings import Settings
+from app.tubes.patches import patch_pairs, patch_tubes
+from app.tubes.sweep import sweep
+from app.tubes.tubes import Tubes
+
+Progress = Callable[[str, float], None]
+"""Told what is being done and which share of the whole is done, from 0 to 1."""
+
+TUBE_TOLERANCE = 0.02
+"""How far a mesh may be from its tube, as a share of the thinnest radius: some 16 sides."""
+
+
+def silent(_stage: str, _share: float) -> None:
+    """Progress that nobody listens to."""
+
+
+@dataclass(frozen=True, slots=True)
+class RenderOptions:
+    """What belongs to one answer alone: its format, and a picture's size in pixels."""
+
+    format: SceneFormat = SceneFormat.GLB
+    width: int = 1024
+    height: int = 768
+    quality: Literal["draft"] = "draft"
+    source: str = "tubeloom"
+
+
+@dataclass(frozen=True, slots=True)
+class LayoutOptions:
+    """Whether the numbers come with patch pairs, and the format of the document."""
+
+    patches: bool = False
+    source: str = "tubeloom"
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """Bytes, what they are, and a strong validator that changes whenever they would."""
+
+    body: bytes
+    media_type: str
+    etag: str
+
+
+@dataclass(frozen=True, slots=True)
+class Unchanged:
+    """The asker has this answer already."""
+
+    etag: str
+
+
+def render(
+    data: bytes,
+    options: RenderOptions,
+    settings: Settings,
+    known: frozenset[str] = frozenset(),
+    progress: Progress = silent,
+) -> Answer | Unchanged:
+    """The scene of the document ``data``, in ``options.format``.
+
+    ``known`` are validators of answers that the asker has. Raises what `app.errors` lists.
+    """
+    if options.width * options.height > settings.max_pixels:
+        raise PictureTooLarge(
+            f"{options.width} × {options.height} are more than {settings.max_pixels} pixels; "
+            "ask for fewer."
+        )
+    progress("reading", 0.0)
+    program = registry.read(options.source, data, settings)
+    etag = validator(program, options)
+    if etag in known:
+        return Unchanged(etag)
+    scene = make_scene(program, aspect=options.width / options.height, progress=progress)
+    progress("writing", 0.6)
+    body = _write(scene, options)
+    progress("done", 1.0)
+    return Answer(body, options.format.media_type, etag)
+
+
+def layout(
+    data: bytes,
+    options: LayoutOptions,
+    settings: Settings,
+    known: frozenset[str] = frozenset(),
+) -> Answer | Unchanged:
+    """The numbers of the document's layout, as JSON."""
+    from app.output.numbers import layout_numbers
+
+    program = registry.read(options.source, data, settings)
+    etag = validator(program, options)
+    if etag in known:
+        return Unchanged(etag)
+    placement = place(program, load_notation(program.notation))
+    routing = route_program(program, placement)
+    patches = patch_pairs(routing, program.layout.patch_rule) if options.patches else None
+    body = layout_numbers(program, placement, routing, patches)
+    return Answer(body, "application/json", etag)
+
+
+def convert(
+    data: bytes,
+    source: str,
+    target: str,
+    settings: Settings,
+    known: frozenset[str] = frozenset(),
+) -> Answer | Unchanged:
+    """The document in another format."""
+    program = registry.read(source, data, settings)
+    etag = validator(program, target)
+    if etag in known:
+        return Unchanged(etag)
+    return Answer(registry.write(target, program), registry.FORMATS[target].media_type, etag)
+
+
+def make_scene(program: Program, aspect: float, progress: Progress = silent) -> Scene:
+    """Place, route, make tubes, assemble: everything between reading and writing."""
+    notation = load_notation(program.notation)
+    progress("placing items", 0.1)
+    placement = place(program, notation)
+    progress("laying out hyperedges", 0.2)
+    routing = route_program(program, placement)
+    progress("making tubes", 0.4)
+    tubes = make_tubes(program, routing)
+    progress("assembling the scene", 0.5)
+    return assemble(program, notation, placement, tubes, aspect)
+
+
+def route_program(program: Program, placement: Placement) -> Routing:
+    """The hyperedges' curves, as the document's ``layout`` wishes."""
+    return route(
+        placement,
+        curves=program.layout.curves,
+        fidelity=program.layout.fidelity,
+        closest=program.layout.closest,
+        clearance=program.layout.clearance,
+        join_heights=_join_heights(program),
+    )
+
+
+def make_tubes(program: Program, routing: Routing) -> Tubes:
+    """Tubes around the curves, as the document's ``layout`` wishes."""
+    if not program.hyperedges:
+        return Tubes.none()
+    tolerance = TUBE_TOLERANCE * float(routing.radii.min())
+    if program.layout.tube == "patches":
+        return patch_tubes(routing, program.layout.patch_rule, tolerance)
+    return sweep(routing, tolerance)
+
+
+def validator(program: Program, options: object) -> str:
+    """A strong validator: digest of the document, of what was asked, and of our version."""
+    asked = f"{__version__}\n{options!r}\n".encode()
+    return hashlib.sha256(asked + canonical(program)).hexdigest()[:32]
+
+
+def _join_heights(program: Program) -> Floats:
+    return np.array(
+        [
+            np.nan if hyperedge.join_height is None else hyperedge.join_height
+            for hyperedge in program.hyperedges
+        ],
+        dtype=np.float64,
+    )
+
+
+def _write(scene: Scene, options: RenderOptions) -> bytes:
+    match options.format:
+        case SceneFormat.GLB:
+            from app.output.gltf import write_glb
+
+            return write_glb(scene)
+        case SceneFormat.GLTF:
+            from app.output.gltf import write_gltf
+
+            return write_gltf(scene)
+        case SceneFormat.PNG:
+            from app.output.draft import draw_draft
+
+            return draw_draft(scene, options.width, options.height)

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Sees to the system packages that Tubeloom draws with: installs them when root with apt, otherwise
+# says which command does. `system-packages.sh test` sees to what the tests need besides.
+set -euo pipefail
+
+has_library() { ldconfig -p 2>/dev/null | grep -q "$1"; }
+has_package() { [ -n "$(apt-cache policy "$1" 2>/dev/null | sed -n 's/ *Candidate: \([^(].*\)/\1/p')" ]; }
+
+lacks=()
+if [ "${1:-}" = test ]; then
+  has_library libOSMesa.so || lacks+=(osmesa)
+  has_library libEGL.so.1 && has_library libEGL_mesa || lacks+=(egl)
+  command -v node >/dev/null && command -v npm >/dev/null || lacks+=(node)
+elif ! has_library libOSMesa.so && ! has_library libEGL_mesa; then
+  lacks+=(osmesa)
+fi
+[ ${#lacks[@]} -eq 0 ] && exit 0
+
+apt=no
+if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
+  apt=yes
+  apt-get update -qq
+fi
+
+packages=()
+for part in "${lacks[@]}"; do
+  case $part in
+    # Mesa 25.1 and later have no OSMesa; EGL draws there.
+    osmesa) if [ $apt = no ] || has_package libosmesa6; then packages+=(libosmesa6); else packages+=(libegl1 libegl-mesa0 libgl1); fi ;;
+    egl) packages+=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri) ;;
+    node) packages+=(nodejs npm) ;;
+  esac
+done
+
+if [ $apt = yes ]; then
+  DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}"
+else
+  echo "This machine lacks system packages; PNG pictures (or some tests) need them. Please run:" >&2
+  echo "  sudo apt-get install ${packages[*]}" >&2
+fi
