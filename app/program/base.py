@@ -1,8 +1,10 @@
 """What all parts of a document have in common."""
 
+import math
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue, StringConstraints
+from pydantic_core import PydanticCustomError
 
 
 class Part(BaseModel):
@@ -25,3 +27,20 @@ Coordinate = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
 """A position or direction component, in document units."""
 
 Vector = tuple[Coordinate, Coordinate, Coordinate]
+
+
+def _finite(data: dict[str, JsonValue]) -> dict[str, JsonValue]:
+    waiting: list[JsonValue] = [data]
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, dict):
+            waiting.extend(value.values())
+        elif isinstance(value, list):
+            waiting.extend(value)
+        elif isinstance(value, float) and not math.isfinite(value):
+            raise PydanticCustomError("finite_number", "Numbers must be finite")
+    return data
+
+
+Data = Annotated[dict[str, JsonValue], AfterValidator(_finite)]
+"""The editor's own: any JSON object. It goes out again as it came in."""

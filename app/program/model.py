@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from app.program.base import Color, Id, Label, Part, Vector
+from app.program.base import Color, Data, Id, Label, Part, Vector
 from app.program.shapes import Length, Shape
 
 Degrees = Annotated[float, Field(ge=-360_000, le=360_000, allow_inf_nan=False)]
@@ -38,7 +38,7 @@ class Item(Part):
     material: MaterialName | None = None
     color: Color | None = None
     attachment_points: tuple[AttachmentPoint, ...] = ()
-    data: dict[str, Any] = Field(
+    data: Data = Field(
         default_factory=dict, description="The editor's own; handed through to glTF extras."
     )
 
@@ -47,9 +47,7 @@ class Attachment(Part):
     """One end of a hyperedge."""
 
     item: Id
-    point: Id | None = Field(
-        None, description="Left out: the middle of the item's top face."
-    )
+    point: Id | None = Field(None, description="Left out: the middle of the item's top face.")
 
 
 class Hyperedge(Part):
@@ -69,7 +67,7 @@ class Hyperedge(Part):
         description="World z of the join plane; left out, Tubeloom chooses.",
     )
     material: MaterialName | None = None
-    data: dict[str, Any] = Field(default_factory=dict)
+    data: Data = Field(default_factory=dict)
 
 
 class LineUp(Part):
@@ -117,7 +115,7 @@ class View(Part):
 
     projection: Literal["perspective", "orthographic"] = "perspective"
     from_: Vector = Field(
-        (0.0, -1.0, 0.8), alias="from", description="Direction from the scene to the camera."
+        (-0.15, -1.0, 1.0), alias="from", description="Direction from the scene to the camera."
     )
     field_of_view: float = Field(
         30.0, ge=1, le=120, allow_inf_nan=False, description="Vertical, in degrees."
@@ -137,4 +135,4 @@ class Program(Part):
     layout: Layout = Layout()
     style: Style = Style()
     view: View = View()
-    data: dict[str, Any] = Field(default_factory=dict)
+    data: Data = Field(default_factory=dict)

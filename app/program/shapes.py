@@ -8,7 +8,7 @@ from pydantic import Field
 
 from app.program.base import Part
 
-Length = Annotated[float, Field(gt=0, ge=1e-3, le=1e5, allow_inf_nan=False)]
+Length = Annotated[float, Field(ge=1e-3, le=1e5, allow_inf_nan=False)]
 """A size in document units: positive, finite, and within what single precision can draw."""
 
 Size = tuple[Length, Length, Length]
@@ -17,14 +17,14 @@ Size = tuple[Length, Length, Length]
 class Box(Part):
     """A block with slightly rounded edges; its label stands on the front face."""
 
-    type: Literal["box"] = "box"
+    type: Literal["box"]
     size: Size | None = None
 
 
 class Tray(Part):
     """An open box that other items lie in."""
 
-    type: Literal["tray"] = "tray"
+    type: Literal["tray"]
     size: Size | None = None
     wall: Length | None = None
 
@@ -32,14 +32,14 @@ class Tray(Part):
 class Sphere(Part):
     """A ball."""
 
-    type: Literal["sphere"] = "sphere"
+    type: Literal["sphere"]
     radius: Length | None = None
 
 
 class Cylinder(Part):
     """A cylinder whose axis is z."""
 
-    type: Literal["cylinder"] = "cylinder"
+    type: Literal["cylinder"]
     radius: Length | None = None
     height: Length | None = None
 
@@ -47,7 +47,7 @@ class Cylinder(Part):
 class Cone(Part):
     """A cone whose axis is z, with its tip on top."""
 
-    type: Literal["cone"] = "cone"
+    type: Literal["cone"]
     radius: Length | None = None
     height: Length | None = None
 
@@ -55,7 +55,7 @@ class Cone(Part):
 class Arrow(Part):
     """A cylinder and a cone along x, pointing to +x; ``radius`` is the cone's."""
 
-    type: Literal["arrow"] = "arrow"
+    type: Literal["arrow"]
     length: Length | None = None
     radius: Length | None = None
 
@@ -63,11 +63,9 @@ class Arrow(Part):
 class Text(Part):
     """The item's label itself, as solid letters; ``height`` is that of a capital letter."""
 
-    type: Literal["text"] = "text"
+    type: Literal["text"]
     height: Length | None = None
     depth: Length | None = None
 
 
-Shape = Annotated[
-    Box | Tray | Sphere | Cylinder | Cone | Arrow | Text, Field(discriminator="type")
-]
+Shape = Annotated[Box | Tray | Sphere | Cylinder | Cone | Arrow | Text, Field(discriminator="type")]

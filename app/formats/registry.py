@@ -1,0 +1,82 @@
+"""The formats of documents, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from app.errors import UnknownName
+from app.formats import tubeloom, yosys
+from app.program.model import Program
+from app.program.reading import read_program
+from app.settings import Settings
+
+Reader = Callable[[bytes, Settings], Program]
+Writer = Callable[[Program], bytes]
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A format of documents; ``writer`` is ``None`` where programs cannot be written in it."""
+
+    name: str
+    title: str
+    description: str
+    media_type: str
+    suffix: str
+    reader: Reader
+    writer: Writer | None
+
+    @property
+    def writes(self) -> bool:
+        """Whether programs can be written in it."""
+        return self.writer is not None
+
+
+FORMATS: Mapping[str, Format] = MappingProxyType(
+    {
+        format_.name: format_
+        for format_ in (
+            Format(
+                "tubeloom",
+                "Tubeloom program",
+                "Items with attachment points, and hyperedges that join them.",
+                "application/json",
+                ".json",
+                read_program,
+                tubeloom.write,
+            ),
+            Format(
+                "yosys",
+                "Yosys netlist",
+                "What Yosys' write_json makes: cells, module ports and the nets between them.",
+                "application/vnd.yosys+json",
+                ".json",
+                yosys.read,
+                None,
+            ),
+        )
+    }
+)
+
+
+def read(name: str, data: bytes, settings: Settings) -> Program:
+    """The program in ``data``, a document of the format ``name``.
+
+    Raises `UnknownName`, and `DocumentError` with every fault found in the document.
+    """
+    if name not in FORMATS:
+        raise UnknownName("format", name, tuple(FORMATS))
+    return FORMATS[name].reader(data, settings)
+
+
+def write(name: str, program: Program) -> bytes:
+    """The program as a document of the format ``name``.
+
+    Raises `UnknownName` where there is no such format, or it can only be read.
+    """
+    writers = {key: entry.writer for key, entry in FORMATS.items() if entry.writer is not None}
+    if name not in writers:
+        raise UnknownName("format to write", name, tuple(writers))
+    return writers[name](program)
