@@ -23,5 +23,13 @@ class Mesh:
 
     @property
     def bounds(self) -> Floats:
-        """Smallest and largest corner, (2, 3)."""
+        """Smallest and largest corner, (2, 3); the origin twice where there are no triangles."""
+        if len(self.vertices) == 0:
+            return np.zeros((2, 3))
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)], dtype=np.float64)
+
+    @staticmethod
+    def none() -> Mesh:
+        """Nothing to see."""
+        nothing = np.zeros((0, 3), dtype=np.float32)
+        return Mesh(nothing, nothing, np.zeros((0, 3), dtype=np.uint32))
