@@ -1,4 +1,4 @@
-"""What a notation says: how items and hyperedges of each kind look and how contents are arranged."""
+"""What a notation says: how each kind looks, and how contents are arranged."""
 
 from __future__ import annotations
 
@@ -24,8 +24,11 @@ class ItemStyle(Part):
     arrangement: Literal["row", "column", "rows"] = Field(
         "rows", description="How children stand: in one row, one column, or rows of even length."
     )
-    gap: Length = Field(0.3, description="Between children.")
-    padding: Length = Field(0.2, description="Between a tray's wall and its contents.")
+    caption: Literal["front", "left"] = Field(
+        "front", description="Where a tray's label lies: before its contents, or to their left."
+    )
+    gap: Length = Field(0.25, description="Between children.")
+    padding: Length = Field(0.14, description="Between a tray's wall and its contents.")
 
 
 class HyperedgeStyle(Part):

@@ -1,0 +1,259 @@
+"""Sizes from the inside out: every item around what it contains."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from app.notations.notation import ItemStyle
+from app.placement.family import Family
+from app.placement.fitting import fit, shape_of, written_extent
+from app.placement.labels import front, strip
+from app.placement.rows import Arrangement, arrange
+from app.placement.turning import UNTURNED, Quaternion, from_degrees, reach
+from app.program import shapes
+from app.program.model import Item, LineUp, Program
+from app.solids.extents import size_of
+from app.solids.lettering import TextExtent
+from app.solids.solid import Box, Size, Solid, Tray
+
+CAPTION_GAP = 0.1
+"""Between a tray's label and its contents."""
+
+ROOT_GAP = 0.6
+
+ALIKE = 1.7
+"""Blocks of one kind in one parent get one width where the widest is at most so many times as wide
+as the narrowest."""
+
+DEEPER = 1.4
+"""How far a tray is stretched at most, to be as deep as its neighbours."""
+
+Place = tuple[float, float]
+LineUps = dict[int, list[tuple[LineUp, list[int]]]]
+
+
+@dataclass(slots=True)
+class Sized:
+    """An item with its solid.
+
+    ``children`` are those without positions, by number, seen from above, relative to its centre.
+    """
+
+    item: Item
+    style: ItemStyle
+    label: TextExtent | None
+    solid: Solid
+    size: Size
+    turn: Quaternion
+    children: dict[int, Place] = field(default_factory=dict)
+
+    @property
+    def is_free(self) -> bool:
+        """Whether a place is still to be found."""
+        return self.item.position is None
+
+    @property
+    def has_own_size(self) -> bool:
+        """Whether the document or the notation fixes the size."""
+        shape = self.item.shape or self.style.shape
+        return getattr(shape, "size", None) is not None
+
+    @property
+    def footprint(self) -> Place:
+        """Width and depth that the item takes among its siblings, with its label."""
+        width, depth, _ = reach(self.turn, self.size)
+        before = front(self.solid, self.label)
+        if before and self.label is not None:
+            width = max(width, self.label.width)
+        return (width, depth + before)
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """Children arranged about a point: places of the free ones, and the box around all."""
+
+    places: dict[int, Place]
+    low: Place
+    high: Place
+    fixed: bool
+    """Whether some have positions, so that nothing may be shifted."""
+
+
+def measure(
+    program: Program, family: Family, styles: Sequence[ItemStyle]
+) -> tuple[list[Sized], dict[int, Place]]:
+    """All items with their solids, and the places of free roots in the world."""
+    line_ups = _line_ups(program, family)
+    sized = [
+        _alone(item, style, bool(children), program.style.labels)
+        for item, style, children in zip(program.items, styles, family.children, strict=True)
+    ]
+    for number in reversed(family.order):
+        children = family.children[number]
+        if children:
+            style = styles[number]
+            contents = contain(
+                sized, children, line_ups.get(number, []), style.gap, style.arrangement
+            )
+            _enclose(sized[number], contents)
+    roots = contain(sized, family.roots, line_ups.get(-1, []), ROOT_GAP, "rows")
+    return sized, roots.places
+
+
+def _alone(item: Item, style: ItemStyle, has_children: bool, labelled: bool) -> Sized:
+    shape = shape_of(item, style, has_children)
+    label = None
+    if labelled and item.label and not isinstance(shape, shapes.Text):
+        label = written_extent(item.label, style.label_height)
+    contents = (0.0, 0.0)
+    if isinstance(shape, shapes.Tray) and not has_children:
+        least = style.label_height
+        width = least if label is None else label.width
+        contents = (width + 2 * style.padding, max(least, strip(label)) + 2 * style.padding)
+    solid = fit(shape, item, style, label, contents)
+    turn = from_degrees(*item.rotation) if item.rotation else UNTURNED
+    return Sized(item, style, label, solid, size_of(solid), turn)
+
+
+def contain(
+    sized: Sequence[Sized],
+    children: Sequence[int],
+    line_ups: Sequence[tuple[LineUp, list[int]]],
+    gap: float,
+    arrangement: Arrangement,
+) -> Contents:
+    """Arrange the free ones of ``children``; those with positions stay."""
+    free = [child for child in children if sized[child].is_free]
+    _make_alike([sized[child] for child in free])
+    places, width, depth = _arrange_free(sized, free, line_ups, gap, arrangement)
+    fixed = [sized[child] for child in children if not sized[child].is_free]
+    if not fixed:
+        return Contents(places, (-width / 2, -depth / 2), (width / 2, depth / 2), fixed=False)
+    low, high = _bounds(fixed)
+    if free:
+        # The free ones stand before the box of those with positions.
+        x = (low[0] + high[0]) / 2
+        y = low[1] - gap - depth / 2
+        places = {child: (x + place[0], y + place[1]) for child, place in places.items()}
+        low = (min(low[0], x - width / 2), y - depth / 2)
+        high = (max(high[0], x + width / 2), high[1])
+    return Contents(places, low, high, fixed=True)
+
+
+def _arrange_free(
+    sized: Sequence[Sized],
+    free: Sequence[int],
+    line_ups: Sequence[tuple[LineUp, list[int]]],
+    gap: float,
+    arrangement: Arrangement,
+) -> tuple[dict[int, Place], float, float]:
+    """Places about the centre, width and depth; what lines up is arranged first, then as one."""
+    block_of = {child: members for _, members in line_ups for child in members}
+    blocks: list[list[int]] = []
+    footprints: list[Place] = []
+    within: dict[int, Place] = {}
+    for child in free:
+        members = block_of.get(child)
+        if members is None:
+            blocks.append([child])
+            footprints.append(sized[child].footprint)
+            within[child] = (0.0, 0.0)
+        elif child == members[0]:
+            line_up = next(found for found, others in line_ups if others is members)
+            inner = arrange([sized[member].footprint for member in members], gap, line_up.type)
+            blocks.append(members)
+            footprints.append((inner.width, inner.depth))
+            within.update(zip(members, inner.centers, strict=True))
+    outer = arrange(footprints, gap, arrangement)
+    places: dict[int, Place] = {}
+    for block, center, row in zip(blocks, outer.centers, outer.depths, strict=True):
+        if len(block) == 1:
+            _deepen(sized[block[0]], row)
+        for child in block:
+            before = front(sized[child].solid, sized[child].label)
+            places[child] = (
+                center[0] + within[child][0],
+                center[1] + within[child][1] + before / 2,
+            )
+    return places, outer.width, outer.depth
+
+
+def _deepen(child: Sized, depth: float) -> None:
+    """Trays of nearly one depth in one row end at one line; contents stay in their middle."""
+    stretches = isinstance(child.solid, Tray) and not child.has_own_size and child.turn == UNTURNED
+    if isinstance(child.solid, Tray) and stretches and depth <= DEEPER * child.size[1]:
+        size = (child.size[0], max(depth, child.size[1]), child.size[2])
+        child.solid, child.size = replace(child.solid, size=size), size
+
+
+def _make_alike(siblings: Sequence[Sized]) -> None:
+    """Blocks of one kind in one parent look alike: the same height, and width if that is cheap."""
+    kinds: dict[str | None, list[Sized]] = defaultdict(list)
+    for sibling in siblings:
+        if isinstance(sibling.solid, Box) and not sibling.has_own_size and not sibling.children:
+            kinds[sibling.item.kind].append(sibling)
+    for group in kinds.values():
+        widths = [sibling.size[0] for sibling in group]
+        widest = max(widths) if max(widths) <= ALIKE * min(widths) else 0.0
+        tallest = max(sibling.size[2] for sibling in group)
+        for sibling in group:
+            size = (max(sibling.size[0], widest), sibling.size[1], tallest)
+            if isinstance(sibling.solid, Box):
+                sibling.solid, sibling.size = replace(sibling.solid, size=size), size
+
+
+def _bounds(items: Sequence[Sized]) -> tuple[Place, Place]:
+    lows: list[Place] = []
+    highs: list[Place] = []
+    for sized in items:
+        x, y, _ = sized.item.position or (0.0, 0.0, 0.0)
+        width, depth, _ = reach(sized.turn, sized.size)
+        width = max(width, sized.footprint[0])
+        lows.append((x - width / 2, y - depth / 2 - front(sized.solid, sized.label)))
+        highs.append((x + width / 2, y + depth / 2))
+    return (
+        (min(low[0] for low in lows), min(low[1] for low in lows)),
+        (max(high[0] for high in highs), max(high[1] for high in highs)),
+    )
+
+
+def _enclose(parent: Sized, contents: Contents) -> None:
+    """Give ``parent`` its size around ``contents``, and its free children their places."""
+    style = parent.style
+    is_tray = isinstance(parent.solid, Tray)
+    beside = before = 0.0
+    if is_tray and parent.label is not None:
+        if style.caption == "left":
+            beside = parent.label.width + CAPTION_GAP
+        else:
+            before = strip(parent.label) + CAPTION_GAP
+    (left, near), (right, far) = contents.low, contents.high
+    if contents.fixed:
+        # Positions are relative to the parent's centre, which therefore cannot move.
+        width = 2 * max(right, beside - left)
+        depth = 2 * max(far, before - near)
+        parent.children = contents.places
+    else:
+        width, depth = right - left + beside, far - near + before
+        parent.children = {
+            child: (x + beside / 2, y + before / 2) for child, (x, y) in contents.places.items()
+        }
+    if is_tray and parent.label is not None and style.caption == "front":
+        width = max(width, parent.label.width)
+    if is_tray and parent.label is not None and style.caption == "left":
+        depth = max(depth, strip(parent.label))
+    margin = 2 * style.padding
+    shape = shape_of(parent.item, style, has_children=True)
+    parent.solid = fit(shape, parent.item, style, parent.label, (width + margin, depth + margin))
+    parent.size = size_of(parent.solid)
+
+
+def _line_ups(program: Program, family: Family) -> LineUps:
+    numbers = {item.id: number for number, item in enumerate(program.items)}
+    found: LineUps = defaultdict(list)
+    for line_up in program.layout.constraints:
+        members = [numbers[name] for name in line_up.items]
+        found[family.parents[members[0]]].append((line_up, members))
+    return found

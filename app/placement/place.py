@@ -1,0 +1,123 @@
+"""Places for all items of a program, and for the ends of all its hyperedges."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from app.notations.notation import Notation
+from app.placement.contents import Place, Sized, measure
+from app.placement.family import Family, family
+from app.placement.labels import label_place
+from app.placement.placement import LabelPlace, Placement
+from app.placement.points import points_of
+from app.placement.turning import UNTURNED, Quaternion, Vector, reach, then, turned
+from app.program.model import Program
+from app.solids.solid import Tray
+
+
+def place(program: Program, notation: Notation) -> Placement:
+    """The places of all items and attachments.
+
+    Items with positions stay exactly there; the others stand in rows within their parents, or on
+    the plane z = 0.
+    """
+    relations = family(program)
+    styles = [notation.item_style(item.kind) for item in program.items]
+    sized, roots = measure(program, relations, styles)
+    centers, turns = _in_world(sized, relations, roots)
+    positions, directions, starts, owners = _attachments(program, sized, centers, turns)
+    return Placement(
+        centers=np.array(centers, dtype=np.float64).reshape(-1, 3),
+        rotations=np.array(turns, dtype=np.float64).reshape(-1, 4),
+        sizes=np.array([each.size for each in sized], dtype=np.float64).reshape(-1, 3),
+        solids=tuple(each.solid for each in sized),
+        labels=tuple(_label(each) for each in sized),
+        attachment_positions=np.array(positions, dtype=np.float64).reshape(-1, 3),
+        attachment_directions=np.array(directions, dtype=np.float64).reshape(-1, 3),
+        attachment_starts=np.array(starts, dtype=np.int64),
+        attachment_items=np.array(owners, dtype=np.int64),
+        radii=np.array(
+            [
+                hyperedge.radius or notation.hyperedge_style(hyperedge.kind).radius
+                for hyperedge in program.hyperedges
+            ],
+            dtype=np.float64,
+        ),
+    )
+
+
+def _in_world(
+    sized: Sequence[Sized], relations: Family, roots: dict[int, Place]
+) -> tuple[list[Vector], list[Quaternion]]:
+    centers: list[Vector] = [(0.0, 0.0, 0.0)] * len(sized)
+    turns: list[Quaternion] = [UNTURNED] * len(sized)
+    for number in relations.order:
+        each = sized[number]
+        rise = reach(each.turn, each.size)[2] / 2
+        parent = relations.parents[number]
+        if parent < 0:
+            turns[number] = each.turn
+            if each.item.position is None:
+                centers[number] = (*roots[number], rise)
+            else:
+                centers[number] = each.item.position
+            continue
+        turns[number] = then(turns[parent], each.turn)
+        offset = each.item.position
+        if offset is None:
+            offset = (*sized[parent].children[number], _ground(sized[parent]) + rise)
+        moved = turned(turns[parent], offset)
+        x, y, z = (a + b for a, b in zip(centers[parent], moved, strict=True))
+        centers[number] = (x, y, z)
+    return centers, turns
+
+
+def _ground(parent: Sized) -> float:
+    """What children stand on: a tray's floor, or the top of anything else; about its centre."""
+    if isinstance(parent.solid, Tray):
+        return parent.solid.floor - parent.size[2] / 2
+    return parent.size[2] / 2
+
+
+def _label(each: Sized) -> LabelPlace | None:
+    if each.label is None or each.item.label is None:
+        return None
+    return label_place(
+        each.item.label,
+        each.style.label_height,
+        each.label,
+        each.solid,
+        each.size,
+        each.style.padding,
+        side=each.style.caption == "left",
+    )
+
+
+def _attachments(
+    program: Program,
+    sized: Sequence[Sized],
+    centers: Sequence[Vector],
+    turns: Sequence[Quaternion],
+) -> tuple[list[Vector], list[Vector], list[int], list[int]]:
+    numbers = {item.id: number for number, item in enumerate(program.items)}
+    known: dict[int, dict[str | None, tuple[Vector, Vector]]] = {}
+    positions: list[Vector] = []
+    directions: list[Vector] = []
+    owners: list[int] = []
+    starts = [0]
+    for hyperedge in program.hyperedges:
+        for attachment in hyperedge.attachments:
+            number = numbers[attachment.item]
+            each = sized[number]
+            if number not in known:
+                known[number] = points_of(each.item, each.solid, each.size)
+            position, direction = known[number][attachment.point]
+            moved = turned(turns[number], position)
+            x, y, z = (a + b for a, b in zip(centers[number], moved, strict=True))
+            positions.append((x, y, z))
+            directions.append(turned(turns[number], direction))
+            owners.append(number)
+        starts.append(len(positions))
+    return positions, directions, starts, owners

@@ -1,0 +1,67 @@
+"""Quaternions x, y, z, w: how items are turned within their parents."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+Quaternion: TypeAlias = tuple[float, float, float, float]
+Vector: TypeAlias = tuple[float, float, float]
+
+UNTURNED: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+UPRIGHT: Quaternion = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
+"""A quarter turn about x: letters lying on the ground stand up and face -y."""
+
+
+def from_degrees(x: float, y: float, z: float) -> Quaternion:
+    """The turn about x, then y, then z (the axes standing still), by so many degrees.
+
+    >>> from_degrees(0, 0, 180)[2]
+    1.0
+    """
+    quaternion = UNTURNED
+    for axis, degrees in enumerate((x, y, z)):
+        if degrees:
+            half = math.radians(math.remainder(degrees, 360.0)) / 2
+            turn = [0.0, 0.0, 0.0, math.cos(half)]
+            turn[axis] = math.sin(half)
+            quaternion = then((turn[0], turn[1], turn[2], turn[3]), quaternion)
+    return quaternion
+
+
+def then(second: Quaternion, first: Quaternion) -> Quaternion:
+    """The turn that does ``first``, then ``second`` (Hamilton's product second · first)."""
+    x, y, z, w = second
+    a, b, c, d = first
+    return (
+        w * a + x * d + y * c - z * b,
+        w * b - x * c + y * d + z * a,
+        w * c + x * b - y * a + z * d,
+        w * d - x * a - y * b - z * c,
+    )
+
+
+def turned(quaternion: Quaternion, vector: Vector) -> Vector:
+    """``vector`` after the turn."""
+    if quaternion == UNTURNED:
+        return vector
+    x, y, z, w = quaternion
+    a, b, c = vector
+    # v + 2 q × (q × v + w v)
+    i, j, k = y * c - z * b + w * a, z * a - x * c + w * b, x * b - y * a + w * c
+    return (a + 2 * (y * k - z * j), b + 2 * (z * i - x * k), c + 2 * (x * j - y * i))
+
+
+def reach(quaternion: Quaternion, size: Vector) -> Vector:
+    """Size, along the standing axes, of the box around a turned box of ``size``."""
+    if quaternion == UNTURNED:
+        return size
+    columns = [
+        turned(quaternion, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    ]
+    x, y, z = (
+        sum(abs(column[axis]) * length for column, length in zip(columns, size, strict=True))
+        for axis in range(3)
+    )
+    return (x, y, z)
