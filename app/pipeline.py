@@ -4,19 +4,29 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from app import __version__
+from app.answers import (
+    Answer,
+    ConvertOptions,
+    LayoutOptions,
+    Options,
+    RenderOptions,
+    Unchanged,
+    is_known,
+)
 from app.arrays import Floats
 from app.errors import PictureTooLarge
 from app.formats import registry
 from app.hyperedges.route import route
 from app.hyperedges.routing import Routing
 from app.notations.loader import load_notation
+from app.output.draft import draw_draft
+from app.output.gltf import write_glb, write_gltf
 from app.output.media import SceneFormat
+from app.output.numbers import layout_numbers
 from app.placement.place import place
 from app.placement.placement import Placement
 from app.program.digest import canonical
@@ -39,39 +49,24 @@ def silent(_stage: str, _share: float) -> None:
     """Progress that nobody listens to."""
 
 
-@dataclass(frozen=True, slots=True)
-class RenderOptions:
-    """What belongs to one answer alone: its format, and a picture's size in pixels."""
+def answer(
+    data: bytes,
+    options: Options,
+    settings: Settings,
+    known: frozenset[str] = frozenset(),
+    progress: Progress = silent,
+) -> Answer | Unchanged:
+    """Whatever ``options`` ask of the document ``data``.
 
-    format: SceneFormat = SceneFormat.GLB
-    width: int = 1024
-    height: int = 768
-    quality: Literal["draft"] = "draft"
-    source: str = "tubeloom"
-
-
-@dataclass(frozen=True, slots=True)
-class LayoutOptions:
-    """Whether the numbers come with patch pairs, and the format of the document."""
-
-    patches: bool = False
-    source: str = "tubeloom"
-
-
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """Bytes, what they are, and a strong validator that changes whenever they would."""
-
-    body: bytes
-    media_type: str
-    etag: str
-
-
-@dataclass(frozen=True, slots=True)
-class Unchanged:
-    """The asker has this answer already."""
-
-    etag: str
+    ``known`` are validators of answers that the asker has. Raises what `app.errors` lists.
+    """
+    match options:
+        case RenderOptions():
+            return render(data, options, settings, known, progress)
+        case LayoutOptions():
+            return layout(data, options, settings, known, progress)
+        case ConvertOptions():
+            return convert(data, options, settings, known, progress)
 
 
 def render(
@@ -81,25 +76,22 @@ def render(
     known: frozenset[str] = frozenset(),
     progress: Progress = silent,
 ) -> Answer | Unchanged:
-    """The scene of the document ``data``, in ``options.format``.
-
-    ``known`` are validators of answers that the asker has. Raises what `app.errors` lists.
-    """
+    """The scene of the document, in ``options.format``."""
     if options.width * options.height > settings.max_pixels:
         raise PictureTooLarge(
-            f"{options.width} × {options.height} are more than {settings.max_pixels} pixels; "
-            "ask for fewer."
+            f"{options.width} by {options.height} pixels are more than the "
+            f"{settings.max_pixels} that this service draws."
         )
     progress("reading", 0.0)
     program = registry.read(options.source, data, settings)
     etag = validator(program, options)
-    if etag in known:
+    if is_known(etag, known):
         return Unchanged(etag)
     scene = make_scene(program, aspect=options.width / options.height, progress=progress)
     progress("writing", 0.6)
     body = _write(scene, options)
     progress("done", 1.0)
-    return Answer(body, options.format.media_type, etag)
+    return Answer(body, options.format.media_type, etag, program.name)
 
 
 def layout(
@@ -107,34 +99,42 @@ def layout(
     options: LayoutOptions,
     settings: Settings,
     known: frozenset[str] = frozenset(),
+    progress: Progress = silent,
 ) -> Answer | Unchanged:
     """The numbers of the document's layout, as JSON."""
-    from app.output.numbers import layout_numbers
-
+    progress("reading", 0.0)
     program = registry.read(options.source, data, settings)
     etag = validator(program, options)
-    if etag in known:
+    if is_known(etag, known):
         return Unchanged(etag)
+    progress("placing items", 0.2)
     placement = place(program, load_notation(program.notation))
+    progress("laying out hyperedges", 0.4)
     routing = route_program(program, placement)
+    progress("writing", 0.6)
     patches = patch_pairs(routing, program.layout.patch_rule) if options.patches else None
     body = layout_numbers(program, placement, routing, patches)
-    return Answer(body, "application/json", etag)
+    progress("done", 1.0)
+    return Answer(body, "application/json", etag, program.name)
 
 
 def convert(
     data: bytes,
-    source: str,
-    target: str,
+    options: ConvertOptions,
     settings: Settings,
     known: frozenset[str] = frozenset(),
+    progress: Progress = silent,
 ) -> Answer | Unchanged:
     """The document in another format."""
-    program = registry.read(source, data, settings)
-    etag = validator(program, target)
-    if etag in known:
+    progress("reading", 0.0)
+    program = registry.read(options.source, data, settings)
+    etag = validator(program, options)
+    if is_known(etag, known):
         return Unchanged(etag)
-    return Answer(registry.write(target, program), registry.FORMATS[target].media_type, etag)
+    progress("writing", 0.6)
+    body = registry.write(options.target, program)
+    progress("done", 1.0)
+    return Answer(body, registry.FORMATS[options.target].media_type, etag, program.name)
 
 
 def make_scene(program: Program, aspect: float, progress: Progress = silent) -> Scene:
@@ -191,14 +191,8 @@ def _join_heights(program: Program) -> Floats:
 def _write(scene: Scene, options: RenderOptions) -> bytes:
     match options.format:
         case SceneFormat.GLB:
-            from app.output.gltf import write_glb
-
             return write_glb(scene)
         case SceneFormat.GLTF:
-            from app.output.gltf import write_gltf
-
             return write_gltf(scene)
         case SceneFormat.PNG:
-            from app.output.draft import draw_draft
-
             return draw_draft(scene, options.width, options.height)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from enum import Enum
+from enum import StrEnum
 
 
-class SceneFormat(str, Enum):
+class SceneFormat(StrEnum):
     """What a scene can be answered as."""
 
     GLB = "glb"
@@ -20,7 +20,7 @@ class SceneFormat(str, Enum):
         ]
 
     @property
-    def title(self) -> str:
+    def description(self) -> str:
         """What people call it."""
         return {
             "glb": "glTF 2.0, binary",

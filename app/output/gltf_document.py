@@ -1,0 +1,207 @@
+"""A scene as glTF's JSON document: everything but the buffer.
+
+What there is once for each hyperedge is put together as text: many thousand small dictionaries
+would take several times as long.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import sqrt
+from typing import Any
+
+import numpy as np
+from pydantic_core import to_json
+
+from app import __version__
+from app.output.gltf_buffers import Packed, pack
+from app.scene.camera import Axes, axes_from
+from app.scene.rotation import quaternion
+from app.scene.scene import Camera, Light, Material, Node, Scene
+from app.solids.mesh import Mesh
+
+LIGHTS = "KHR_lights_punctual"
+
+# A quarter turn about x: our z up becomes glTF's y up.
+_Y_UP = [-sqrt(0.5), 0.0, 0.0, sqrt(0.5)]
+
+_NOWHERE, _UPRIGHT = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """The JSON document in two parts, and what belongs into its only buffer.
+
+    ``json`` is whole but for ``buffers`` and for the entries of ``tables``, which are JSON texts.
+    """
+
+    json: dict[str, Any]
+    tables: dict[str, list[bytes]]
+    packed: Packed
+
+    def text(self, buffer: bytes = b"") -> bytes:
+        """The JSON text. ``buffer`` is what to say of the buffer besides its length."""
+        pieces = [to_json(self.json, inf_nan_mode="null")[:-1]]
+        pieces += [
+            b',"%b":[%b]' % (name.encode(), b",".join(entries))
+            for name, entries in self.tables.items()
+            if entries  # glTF has no empty lists
+        ]
+        if self.packed.length:
+            pieces.append(b',"buffers":[{"byteLength":%d' % self.packed.length)
+            pieces += [buffer, b"}]"]
+        return b"".join([*pieces, b"}"])
+
+
+def describe(scene: Scene) -> Document:
+    """One root node that turns z up to y up; below it all of the scene, its lights and camera."""
+    meshes: dict[int, Mesh] = {}  # by identity; the scene keeps them alive
+    for node in scene.nodes:
+        for primitive in node.primitives:
+            if len(primitive.mesh.faces):
+                meshes.setdefault(id(primitive.mesh), primitive.mesh)
+    packed = pack(list(meshes.values()))
+    shown = _Shown(scene.materials, packed, {key: place for place, key in enumerate(meshes)})
+
+    nodes = [shown.node(node) for node in scene.nodes]
+    nodes += [
+        {
+            "name": f"{light.name} light",
+            "rotation": _rotation(axes_from(_opposite(light.direction))),
+            "extensions": {LIGHTS: {"light": number}},
+        }
+        for number, light in enumerate(scene.lights)
+    ]
+    nodes.append(_camera_node(scene.camera))
+    root = {
+        "name": scene.name or "program",
+        "rotation": _Y_UP,
+        "children": list(range(1, len(nodes) + 1)),
+    }
+    document: dict[str, Any] = {
+        "asset": {"version": "2.0", "generator": f"Tubeloom {__version__}"},
+        "scene": 0,
+        "scenes": [{"name": root["name"], "nodes": [0]}],
+        "nodes": [root, *nodes],
+        "cameras": [_camera(scene.camera)],
+    }
+    if scene.lights:
+        document["extensionsUsed"] = [LIGHTS]
+        document["extensions"] = {LIGHTS: {"lights": [_light(light) for light in scene.lights]}}
+    if packed.views:
+        document["bufferViews"] = packed.views
+    tables = {
+        "materials": list(map(_material, shown.materials)),
+        "meshes": shown.meshes,
+        "accessors": packed.accessors,
+    }
+    return Document(document, tables, packed)
+
+
+class _Shown:
+    """Meshes and materials in the order in which nodes first show them, each only once."""
+
+    def __init__(
+        self, materials: tuple[Material, ...], packed: Packed, places: Mapping[int, int]
+    ) -> None:
+        self.materials: list[Material] = []
+        self.meshes: list[bytes] = []
+        self._all, self._packed, self._places = materials, packed, places
+        self._material_numbers: dict[int, int] = {}
+        self._mesh_numbers: dict[tuple[tuple[int, int], ...], int] = {}
+
+    def node(self, node: Node) -> dict[str, Any]:
+        """A node with its mesh; what is as glTF assumes it anyway is left out."""
+        found: dict[str, Any] = {"name": node.name}
+        parts = tuple(
+            [
+                (self._places[id(part.mesh)], part.material)
+                for part in node.primitives
+                if len(part.mesh.faces)
+            ]
+        )
+        if parts:
+            number = self._mesh_numbers.setdefault(parts, len(self.meshes))
+            if number == len(self.meshes):
+                self.meshes.append(self._mesh(parts))
+            found["mesh"] = number
+        if node.translation != _NOWHERE:
+            found["translation"] = node.translation
+        if node.rotation != _UPRIGHT:
+            found["rotation"] = node.rotation
+        if node.extras:
+            found["extras"] = node.extras
+        return found
+
+    def _mesh(self, parts: tuple[tuple[int, int], ...]) -> bytes:
+        normals = len(self._packed.indices)
+        primitives = [
+            b'{"attributes":{"POSITION":%d,"NORMAL":%d},"indices":%d,"material":%d}'
+            % (place, normals + place, self._packed.indices[place], self._material(material))
+            for place, material in parts
+        ]
+        return b'{"primitives":[%b]}' % b",".join(primitives)
+
+    def _material(self, number: int) -> int:
+        found = self._material_numbers.setdefault(number, len(self.materials))
+        if found == len(self.materials):
+            self.materials.append(self._all[number])
+        return found
+
+
+def _material(material: Material) -> bytes:
+    found: dict[str, Any] = {
+        "name": material.name,
+        "pbrMetallicRoughness": {
+            "baseColorFactor": material.base_color,
+            "metallicFactor": material.metallic,
+            "roughnessFactor": material.roughness,
+        },
+    }
+    if material.base_color[3] < 1.0:
+        found["alphaMode"] = "BLEND"
+    return to_json(found)
+
+
+def _light(light: Light) -> dict[str, Any]:
+    return {
+        "name": light.name,
+        "type": "directional",
+        "color": light.color,
+        "intensity": light.illuminance,
+    }
+
+
+def _camera(camera: Camera) -> dict[str, Any]:
+    depth = {"znear": camera.near, "zfar": camera.far}
+    if camera.vertical_angle is not None:
+        lens = {"aspectRatio": camera.aspect, "yfov": camera.vertical_angle}
+        return {"name": "camera", "type": "perspective", "perspective": lens | depth}
+    if camera.height is None:
+        raise ValueError("A camera needs an angle or a height.")
+    lens = {"xmag": camera.height * camera.aspect / 2, "ymag": camera.height / 2}
+    return {"name": "camera", "type": "orthographic", "orthographic": lens | depth}
+
+
+def _camera_node(camera: Camera) -> dict[str, Any]:
+    back = np.subtract(camera.position, camera.target)
+    back = back / np.linalg.norm(back)
+    right = np.cross(camera.up, back)
+    right = right / np.linalg.norm(right)
+    return {
+        "name": "camera",
+        "camera": 0,
+        "translation": camera.position,
+        "rotation": _rotation(Axes(right, np.cross(back, right), back)),
+    }
+
+
+def _rotation(axes: Axes) -> tuple[float, float, float, float]:
+    """The rotation of what looks, or shines, along its own -z, with y up."""
+    return quaternion(np.stack([axes.right, axes.up, axes.back], axis=1))
+
+
+def _opposite(vector: tuple[float, float, float]) -> tuple[float, float, float]:
+    x, y, z = vector
+    return -x, -y, -z

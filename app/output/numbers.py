@@ -1,0 +1,109 @@
+"""The numbers of a layout as JSON: where items stand, and the curves of every hyperedge."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic_core import to_json
+
+from app.arrays import Floats, Indices
+from app.hyperedges.routing import Routing
+from app.placement.placement import Placement
+from app.program.model import Program
+
+
+def layout_numbers(
+    program: Program, placement: Placement, routing: Routing, patches: Floats | None
+) -> bytes:
+    """JSON with world positions (z up, document units) and quaternions x, y, z, w.
+
+    Every number has as many digits as it takes to read the same float back. ``patches``
+    (s, 2, 4, 4, 3), top and bottom of each segment, are written where they are given.
+    """
+    # Entry by entry: all as dictionaries at once would take many times the memory of the text.
+    items = b",".join(map(_json, _items(program, placement)))
+    hyperedges = b",".join(map(_json, _hyperedges(program, placement, routing, patches)))
+    return b'{"items":[%b],"hyperedges":[%b]}' % (items, hyperedges)
+
+
+def _json(entry: dict[str, Any]) -> bytes:
+    return to_json(entry, inf_nan_mode="null")
+
+
+def _items(program: Program, placement: Placement) -> Iterator[dict[str, Any]]:
+    columns = (placement.centers, placement.sizes, placement.rotations)
+    for item, center, size, rotation in zip(program.items, *columns, strict=True):
+        yield {
+            "id": item.id,
+            "center": center.tolist(),
+            "size": size.tolist(),
+            "rotation": rotation.tolist(),
+        }
+
+
+def _hyperedges(
+    program: Program, placement: Placement, routing: Routing, patches: Floats | None
+) -> Iterator[dict[str, Any]]:
+    for number, hyperedge in enumerate(program.hyperedges):
+        places = _own(placement.attachment_starts, number)
+        segments = _own(routing.segment_starts, number)
+        joins = _own(routing.join_starts, number)
+        ends = zip(
+            hyperedge.attachments,
+            placement.attachment_positions[places].tolist(),
+            placement.attachment_directions[places].tolist(),
+            strict=True,
+        )
+        yield {
+            "id": hyperedge.id,
+            "join_plane": float(routing.join_planes[number]),
+            "radius": float(routing.radii[number]),
+            "attachments": [
+                {
+                    "item": attachment.item,
+                    "point": attachment.point,
+                    "position": position,
+                    "direction": direction,
+                }
+                for attachment, position, direction in ends
+            ],
+            "segments": _segments(
+                len(hyperedge.attachments),
+                routing.segment_ends[segments],
+                routing.control_points[segments],
+                None if patches is None else patches[segments],
+            ),
+            "joins": [
+                {"position": position, "tangent": tangent}
+                for position, tangent in zip(
+                    routing.join_positions[joins].tolist(),
+                    routing.join_tangents[joins].tolist(),
+                    strict=True,
+                )
+            ],
+        }
+
+
+def _own(starts: Indices, number: int) -> slice:
+    return slice(starts[number], starts[number + 1])
+
+
+def _segments(
+    attachments: int, ends: Indices, control_points: Floats, patches: Floats | None
+) -> list[dict[str, Any]]:
+    """The segments of one hyperedge of so many attachments."""
+
+    def end(number: int) -> dict[str, int]:
+        # Attachments are numbered first, then joins.
+        is_join = number >= attachments
+        return {"join": number - attachments} if is_join else {"attachment": number}
+
+    found: list[dict[str, Any]] = [
+        {"from": end(begins), "to": end(stops), "control_points": points}
+        for (begins, stops), points in zip(ends.tolist(), control_points.tolist(), strict=True)
+    ]
+    if patches is not None:
+        for segment, (top, bottom) in zip(found, patches.tolist(), strict=True):
+            segment["patches"] = [{"top": top, "bottom": bottom}]
+    return found

@@ -1,0 +1,99 @@
+"""Puts the scene together: items, hyperedges, ground, light and a camera that sees them all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from app.arrays import Floats
+from app.notations.notation import Notation
+from app.placement.placement import Placement
+from app.program.model import Program
+from app.scene.boxes import boxes
+from app.scene.camera import axes_from, frame
+from app.scene.color import linear_of, srgb_of
+from app.scene.ground import disc_below, ground_color
+from app.scene.hyperedge_nodes import UPRIGHT, hyperedge_nodes
+from app.scene.item_nodes import item_nodes
+from app.scene.lights import three_point
+from app.scene.materials import make_material
+from app.scene.reach import Reach
+from app.scene.scene import Material, Node, Primitive, Scene
+from app.tubes.tubes import Tubes
+
+
+def assemble(
+    program: Program, notation: Notation, placement: Placement, tubes: Tubes, aspect: float
+) -> Scene:
+    """The scene of a program, framed for a picture of ``aspect`` (width over height).
+
+    One node for each item and each hyperedge, in the order of the document, and one for the
+    ground where the style wishes for it and there is something to stand on it. Raises
+    `UnknownName` where there is no such palette.
+    """
+    background = (
+        None if program.style.background == "transparent" else srgb_of(program.style.background)
+    )
+    materials: dict[Material, int] = {}
+    items = item_nodes(program, notation, placement, materials)
+    hyperedges, tube_boxes = hyperedge_nodes(program, notation, tubes, background, materials)
+    nodes = items + hyperedges
+    reach = Reach.of(nodes, np.concatenate([_boxes(items), tube_boxes]))
+    bounds = reach.bounds
+    ground = None
+    if program.style.ground and reach.nodes:
+        node, box = _ground(bounds, background, materials)
+        ground = Reach.of([node], box[None]).farthest
+        nodes.append(node)
+    axes = axes_from(program.view.from_)
+    return Scene(
+        name=program.name or "",
+        nodes=tuple(nodes),
+        materials=tuple(materials),
+        lights=three_point(axes),
+        camera=frame(reach.farthest if reach.nodes else None, program.view, aspect, ground),
+        background=None if background is None else _triple(linear_of(background)),
+        bounds=bounds,
+    )
+
+
+def _boxes(nodes: Sequence[Node]) -> Floats:
+    """Boxes (n, 2, 3) of nodes in their own axes; the origin twice where there are no triangles."""
+    found = np.zeros((len(nodes), 2, 3))
+    # Many nodes show the same meshes, which live as long as this scene does.
+    meshes = {id(part.mesh): part.mesh for node in nodes for part in node.primitives}
+    if not meshes:
+        return found
+    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes.values())])
+    vertices = np.concatenate([mesh.vertices for mesh in meshes.values()])
+    around = dict(zip(meshes, boxes(vertices, starts), strict=True))
+    for number, node in enumerate(nodes):
+        if node.primitives:
+            parts = np.array([around[id(part.mesh)] for part in node.primitives])
+            found[number] = parts[:, 0].min(axis=0), parts[:, 1].max(axis=0)
+    return found
+
+
+def _ground(
+    bounds: Floats, background: Floats | None, materials: dict[Material, int]
+) -> tuple[Node, Floats]:
+    """The ground and its box (2, 3)."""
+    mesh, center = disc_below(bounds)
+    material = materials.setdefault(
+        make_material("matte", ground_color(background)), len(materials)
+    )
+    node = Node(
+        "ground",
+        "ground",
+        (Primitive(mesh, material),),
+        _triple(center),
+        UPRIGHT,
+        {"shows": "ground"},
+    )
+    return node, mesh.bounds
+
+
+def _triple(vector: Floats) -> tuple[float, float, float]:
+    x, y, z = vector.tolist()
+    return x, y, z

@@ -1,0 +1,105 @@
+"""Items as nodes: a body each, and its label on it."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from app.arrays import Singles
+from app.notations.notation import ItemStyle, Notation
+from app.placement.placement import LabelPlace, Placement
+from app.program.model import Item, Program
+from app.scene.color import difference, srgb_of
+from app.scene.materials import make_material
+from app.scene.palette import VANISHING
+from app.scene.rotation import matrices
+from app.scene.scene import Material, Node, Primitive
+from app.solids.mesh import Mesh
+from app.solids.meshing import mesh_of
+from app.solids.solid import Solid
+
+INKS = ("#1f2933", "#ffffff")
+"""For labels whose own colour cannot be read on their item's."""
+
+
+def item_nodes(
+    program: Program, notation: Notation, placement: Placement, materials: dict[Material, int]
+) -> list[Node]:
+    """One node for each item, in the order of the document.
+
+    Equal bodies share one `Mesh`, and so do equal labels. New materials join ``materials``,
+    which numbers them.
+    """
+    bodies: dict[Solid, Mesh] = {}
+    labels: dict[tuple[Any, ...], Mesh] = {}
+    nodes: list[Node] = []
+    centers, rotations = placement.centers.tolist(), placement.rotations.tolist()
+    for number, item in enumerate(program.items):
+        style = notation.item_style(item.kind)
+        solid, place = placement.solids[number], placement.labels[number]
+        body = bodies.get(solid)
+        if body is None:
+            body = bodies[solid] = mesh_of(solid)
+        parts = [(body, make_material(item.material or style.material, item.color or style.color))]
+        if place is not None and program.style.labels:
+            key = (place.text, place.position, place.rotation)
+            label = labels.get(key)
+            if label is None:
+                label = labels[key] = _label_mesh(place)
+            parts.append((label, make_material("matte", _ink(item, style))))
+        nodes.append(
+            Node(
+                item.id,
+                "item",
+                tuple(
+                    Primitive(mesh, materials.setdefault(material, len(materials)))
+                    for mesh, material in parts
+                    if len(mesh.faces)
+                ),
+                tuple(centers[number]),
+                tuple(rotations[number]),
+                _extras(item),
+            )
+        )
+    return nodes
+
+
+def _label_mesh(place: LabelPlace) -> Mesh:
+    """The letters in their item's axes."""
+    letters = mesh_of(place.text)
+    turn = _turn(place.rotation)
+    vertices = letters.vertices @ turn
+    vertices += np.array(place.position, dtype=np.float32)
+    return Mesh(vertices, letters.normals @ turn, letters.faces)
+
+
+@lru_cache(maxsize=64)
+def _turn(rotation: tuple[float, float, float, float]) -> Singles:
+    """The matrix (3, 3) that turns rows; most labels are turned alike."""
+    return matrices(np.array(rotation)).T.astype(np.float32)
+
+
+def _ink(item: Item, style: ItemStyle) -> str:
+    """The notation's colour for labels, or one that can be read on the item's own colour."""
+    if item.color is None:
+        return style.label_color
+    paper = srgb_of(item.color)
+    if difference(srgb_of(style.label_color), paper) >= VANISHING:
+        return style.label_color
+    return max(INKS, key=lambda ink: float(difference(srgb_of(ink), paper)))
+
+
+def _extras(item: Item) -> dict[str, Any]:
+    """What the document says of the item, apart from how it looks."""
+    extras: dict[str, Any] = {"shows": "item", "id": item.id}
+    if item.kind is not None:
+        extras["kind"] = item.kind
+    if item.label is not None:
+        extras["label"] = item.label
+    if item.parent is not None:
+        extras["parent"] = item.parent
+    if item.data:
+        extras["data"] = item.data
+    return extras

@@ -1,0 +1,90 @@
+"""Cameras, sampling and tiles."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.output.draft_scene import Normalization
+from app.output.draft_view import DOUBLED, PLAIN, SAMPLED, Frame, frame, sampling, tiling
+from app.scene.scene import Camera
+from tests.output.scenes import from_above, from_front
+
+AS_IT_IS = Normalization(np.zeros(3), 1.0)
+CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+
+
+def project(shown: Frame, point: list[float]) -> np.ndarray:
+    x, y, z, w = shown.projection @ shown.view @ np.array([*point, 1.0])
+    return np.asarray(np.array([x, y, z]) / w)
+
+
+def test_an_orthographic_camera_sees_its_height_from_bottom_to_top() -> None:
+    shown = frame(from_above(4.0), AS_IT_IS, CUBE, aspect=2.0)
+    np.testing.assert_allclose(project(shown, [0, 2, 0])[:2], [0, 1], atol=1e-12)
+    np.testing.assert_allclose(project(shown, [4, 0, 0])[:2], [1, 0], atol=1e-12)
+
+
+def test_a_perspective_camera_sees_its_target_in_the_middle() -> None:
+    shown = frame(from_front(), AS_IT_IS, CUBE, aspect=4 / 3)
+    np.testing.assert_allclose(project(shown, [0, 0, 0.4])[:2], [0, 0], atol=1e-12)
+
+
+def test_a_perspective_camera_sees_its_angle() -> None:
+    camera = Camera((0, 0, 5), (0, 0, 0), (0, 1, 0), 1.0, 0.1, 9.0, vertical_angle=np.pi / 2)
+    shown = frame(camera, AS_IT_IS, CUBE, aspect=1.0)
+    assert project(shown, [0, 5, 0])[1] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("camera", [from_above(4.0), from_front()])
+def test_everything_is_within_the_depth_that_is_kept(camera: Camera) -> None:
+    shown = frame(camera, AS_IT_IS, CUBE, aspect=1.0)
+    depths = [project(shown, list(point))[2] for point in CUBE]
+    assert min(depths) > -1
+    assert max(depths) < 1
+
+
+def test_a_camera_that_looks_along_its_up_still_sees() -> None:
+    camera = Camera((0, 0, 5), (0, 0, 0), (0, 0, 1), 1.0, 0.1, 9.0, height=4.0)
+    assert np.isfinite(project(frame(camera, AS_IT_IS, CUBE, 1.0), [1, 1, 1])).all()
+
+
+def test_a_camera_without_angle_and_height_is_refused() -> None:
+    camera = Camera((0, 0, 5), (0, 0, 0), (0, 1, 0), 1.0, 0.1, 9.0)
+    with pytest.raises(ValueError, match="angle"):
+        frame(camera, AS_IT_IS, CUBE, 1.0)
+
+
+@given(st.integers(1, 5000), st.integers(1, 5000), st.sampled_from([64, 1000, 4096]))
+def test_tiles_cover_the_picture_without_overlap(width: int, height: int, side: int) -> None:
+    tiles = tiling(width, height, side)
+    corners = list(tiles.corners())
+    assert max(tiles.width, tiles.height) <= side
+    assert len(set(corners)) == tiles.columns * tiles.rows
+    assert all(left < width and top < height for left, top in corners) or side < 5
+    assert tiles.columns * tiles.width >= width
+    assert tiles.rows * tiles.height >= height
+
+
+def test_windows_of_a_frame_show_its_parts() -> None:
+    shown = frame(from_above(4.0), AS_IT_IS, CUBE, aspect=1.0)
+    upper_right = shown.window(0.5, 0.0, 1.0, 0.5)
+    np.testing.assert_allclose(project(upper_right, [1, 1, 0])[:2], [0, 0], atol=1e-12)
+    np.testing.assert_allclose(project(upper_right, [2, 2, 0])[:2], [1, 1], atol=1e-12)
+
+
+def test_pictures_of_usual_size_are_drawn_twice_as_large() -> None:
+    assert sampling(1024, 768, 100_000) == DOUBLED
+    assert sampling(1, 1, 0) == DOUBLED
+
+
+def test_large_pictures_of_few_triangles_take_samples_and_of_many_are_doubled() -> None:
+    assert sampling(1920, 1080, 10_000) == SAMPLED
+    assert sampling(1920, 1080, 2_000_000) == DOUBLED
+
+
+def test_the_largest_pictures_are_never_doubled() -> None:
+    assert sampling(4096, 4096, 10_000) == SAMPLED
+    assert sampling(4096, 4096, 10_000_000) == PLAIN

@@ -1,0 +1,114 @@
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.api.layout_model import LayoutNumbers
+from app.arrays import Floats
+from app.hyperedges.routing import Routing
+from app.output.numbers import layout_numbers
+from app.placement.placement import Placement
+from app.program.model import Program
+from tests.scene.hand_built import placed, program_of, three_items
+
+CHANCE = np.random.default_rng(5)
+
+
+def routing_of_three_items() -> Routing:
+    """As CURVES would number it: three segments around one join, then one segment."""
+    return Routing(
+        control_points=CHANCE.normal(size=(4, 4, 3)) * 1e3,
+        segment_starts=np.array([0, 3, 4]),
+        segment_ends=np.array([[0, 3], [1, 3], [3, 2], [0, 1]]),
+        join_positions=CHANCE.normal(size=(1, 3)),
+        join_tangents=np.array([[0.6, 0.0, 0.8]]),
+        join_starts=np.array([0, 1, 1]),
+        join_planes=np.array([2.5, 1 / 3]),
+        radii=np.array([0.08, 0.1]),
+    )
+
+
+def numbers(
+    program: Program | None = None,
+    placement: Placement | None = None,
+    routing: Routing | None = None,
+    patches: Floats | None = None,
+) -> Any:
+    program = program or three_items()
+    text = layout_numbers(
+        program, placement or placed(program), routing or routing_of_three_items(), patches
+    )
+    return json.loads(text)
+
+
+def test_items_are_where_they_were_placed() -> None:
+    assert numbers()["items"][2] == {
+        "id": "z",
+        "center": [4, 0, 0],
+        "size": [1, 1, 1],
+        "rotation": [0, 0, 0, 1],
+    }
+
+
+def test_attachments_name_their_item_and_point() -> None:
+    assert numbers()["hyperedges"][1]["attachments"] == [
+        {"item": "x", "point": "top", "position": [0, 0, 0.5], "direction": [0, 0, 1]},
+        {"item": "y", "point": None, "position": [2, 0, 0.5], "direction": [0, 0, 1]},
+    ]
+
+
+def test_segments_say_what_they_join_in_the_order_of_curves() -> None:
+    first, second = numbers()["hyperedges"]
+    assert [(one["from"], one["to"]) for one in first["segments"]] == [
+        ({"attachment": 0}, {"join": 0}),
+        ({"attachment": 1}, {"join": 0}),
+        ({"join": 0}, {"attachment": 2}),
+    ]
+    assert [(one["from"], one["to"]) for one in second["segments"]] == [
+        ({"attachment": 0}, {"attachment": 1})
+    ]
+
+
+def test_every_number_reads_back_to_the_last_bit() -> None:
+    routing = routing_of_three_items()
+    first, second = numbers(routing=routing)["hyperedges"]
+    read = [one["control_points"] for one in first["segments"] + second["segments"]]
+    assert np.array_equal(read, routing.control_points)
+    assert [first["join_plane"], second["join_plane"]] == [2.5, 1 / 3]
+    assert [first["radius"], second["radius"]] == [0.08, 0.1]
+    assert np.array_equal(first["joins"][0]["position"], routing.join_positions[0])
+    assert first["joins"][0]["tangent"] == [0.6, 0.0, 0.8]
+    assert second["joins"] == []
+
+
+def test_patches_are_there_when_asked_for() -> None:
+    patches = CHANCE.normal(size=(4, 2, 4, 4, 3))
+    first, second = numbers(patches=patches)["hyperedges"]
+    segments = first["segments"] + second["segments"]
+    assert [len(one["patches"]) for one in segments] == [1] * 4
+    assert np.array_equal([one["patches"][0]["top"] for one in segments], patches[:, 0])
+    assert np.array_equal([one["patches"][0]["bottom"] for one in segments], patches[:, 1])
+    assert "patches" not in numbers()["hyperedges"][0]["segments"][0]
+
+
+@pytest.mark.parametrize("patches", [None, CHANCE.normal(size=(4, 2, 4, 4, 3))])
+def test_the_interfaces_description_holds(patches: Floats | None) -> None:
+    LayoutNumbers.model_validate(numbers(patches=patches), extra="forbid")
+
+
+def test_a_program_without_hyperedges_or_items_has_empty_lists() -> None:
+    program = program_of(items=[])
+    nothing = Routing(
+        control_points=np.zeros((0, 4, 3)),
+        segment_starts=np.zeros(1, dtype=np.int64),
+        segment_ends=np.zeros((0, 2), dtype=np.int64),
+        join_positions=np.zeros((0, 3)),
+        join_tangents=np.zeros((0, 3)),
+        join_starts=np.zeros(1, dtype=np.int64),
+        join_planes=np.zeros(0),
+        radii=np.zeros(0),
+    )
+    assert numbers(program, placed(program), nothing) == {"items": [], "hyperedges": []}
