@@ -1,0 +1,52 @@
+"""Reading a posted document: raw bytes, up to a limit. Workers parse them, not the event loop."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from starlette.requests import Request
+
+from app.api.negotiation import media_type_of
+from app.api.problems import BodyTooLargeError, UnsupportedMediaTypeError
+
+FORM = "application/x-www-form-urlencoded"
+"""What ``curl --data-binary`` says of whatever it sends; taken for JSON out of kindness."""
+
+
+async def read_document(request: Request, limit: int) -> bytes:
+    """The body of ``request``, of at most ``limit`` bytes.
+
+    Raises `UnsupportedMediaTypeError` and `BodyTooLargeError`, the latter as soon as it is known.
+    """
+    _check_is_json(request.headers)
+    declared = request.headers.get("content-length", "")
+    if declared.isdecimal() and int(declared) > limit:
+        raise BodyTooLargeError(_too_large(limit))
+    body = bytearray()
+    async for chunk in request.stream():
+        body += chunk
+        if len(body) > limit:
+            raise BodyTooLargeError(_too_large(limit))
+    return bytes(body)
+
+
+def declared_media_type(headers: Mapping[str, str]) -> str:
+    """What the client says that it sends, without parameters; JSON where it says nothing."""
+    return media_type_of(headers.get("content-type") or "application/json")
+
+
+def _check_is_json(headers: Mapping[str, str]) -> None:
+    coding = headers.get("content-encoding", "identity").strip().lower()
+    if coding not in {"identity", ""}:
+        raise UnsupportedMediaTypeError(f"Send the document as it is, not as {coding}.")
+    media_type = declared_media_type(headers)
+    if media_type not in {"application/json", FORM} and not (
+        media_type.startswith("application/") and media_type.endswith("+json")
+    ):
+        raise UnsupportedMediaTypeError(
+            f"Send the document as application/json, not as {headers.get('content-type')}."
+        )
+
+
+def _too_large(limit: int) -> str:
+    return f"The body has more than the {limit} bytes that this service takes."

@@ -1,0 +1,82 @@
+"""What ``/v1/layout`` answers, for the interface's documentation; `app.output.numbers` writes it.
+
+Positions are world positions, z up, in document units; quaternions are x, y, z, w.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Triple: TypeAlias = tuple[float, float, float]
+Quad: TypeAlias = tuple[float, float, float, float]
+Controls: TypeAlias = tuple[Triple, Triple, Triple, Triple]
+
+
+class PlacedItem(BaseModel):
+    """Where an item stands."""
+
+    id: str
+    center: Triple
+    size: Triple
+    rotation: Quad
+
+
+class PlacedAttachment(BaseModel):
+    """Where a hyperedge ends."""
+
+    item: str
+    point: str | None
+    position: Triple
+    direction: Triple
+
+
+class End(BaseModel):
+    """An end of a segment: an attachment or a join of its hyperedge, by number."""
+
+    attachment: int | None = None
+    join: int | None = None
+
+
+class PatchPair(BaseModel):
+    """The paper's tube: a top and a bottom bicubic Bezier patch, four rows of control points."""
+
+    top: tuple[Controls, Controls, Controls, Controls]
+    bottom: tuple[Controls, Controls, Controls, Controls]
+
+
+class Segment(BaseModel):
+    """One cubic Bezier curve."""
+
+    from_: End = Field(alias="from")
+    to: End
+    control_points: Controls
+    patches: list[PatchPair] | None = None
+
+
+class Join(BaseModel):
+    """Where three segments meet with one tangent."""
+
+    position: Triple
+    tangent: Triple
+
+
+class RoutedHyperedge(BaseModel):
+    """A hyperedge's curves, in the order in which CURVES makes them."""
+
+    id: str
+    join_plane: float | None = Field(description="Height z of the joins.")
+    radius: float
+    attachments: list[PlacedAttachment]
+    segments: list[Segment]
+    joins: list[Join]
+
+
+class LayoutNumbers(BaseModel):
+    """Where everything is."""
+
+    model_config = ConfigDict(title="Layout")
+
+    items: list[PlacedItem]
+    hyperedges: list[RoutedHyperedge]

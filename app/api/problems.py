@@ -1,0 +1,168 @@
+"""Errors as problem details (RFC 9457): the one place where an exception becomes HTTP.
+
+400 says that a request does not follow the published schema; 422 that it follows it, but cannot
+be carried out.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from http import HTTPStatus
+from typing import Any
+
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import Response
+
+from app.errors import (
+    DeadlineExceeded,
+    DocumentError,
+    DocumentTooLarge,
+    InconsistentDocument,
+    InvalidDocument,
+    Overloaded,
+    PictureTooLarge,
+    RendererUnavailable,
+    TubeloomError,
+    UnknownName,
+    UnreadableDocument,
+    WorkerLost,
+)
+
+MEDIA_TYPE = "application/problem+json"
+
+RETRY_AFTER_SECONDS = 2
+"""Long enough for some of the line to be worked off, short enough for someone who watches."""
+
+
+class RefusalError(Exception):
+    """A request that HTTP alone is enough to refuse."""
+
+
+class NotAcceptableError(RefusalError):
+    """Nothing that there is fits what the client accepts."""
+
+
+class UnsupportedMediaTypeError(RefusalError):
+    """The body is not JSON, or is compressed."""
+
+
+class BodyTooLargeError(RefusalError):
+    """The body has more bytes than the settings allow."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of problem. ``name`` is the stable end of its ``type``."""
+
+    status: int
+    name: str
+    title: str
+
+    @property
+    def type(self) -> str:
+        """An identifier that stays the same, wherever the service runs."""
+        return f"urn:tubeloom:problem:{self.name}"
+
+
+KINDS: Mapping[type[Exception], Kind] = {
+    UnreadableDocument: Kind(400, "unreadable-document", "The document is not JSON."),
+    InvalidDocument: Kind(400, "invalid-document", "The document does not follow its schema."),
+    InconsistentDocument: Kind(422, "inconsistent-document", "The document contradicts itself."),
+    DocumentTooLarge: Kind(413, "document-too-large", "The document exceeds a limit."),
+    UnknownName: Kind(422, "unknown-name", "The document names something that does not exist."),
+    PictureTooLarge: Kind(422, "picture-too-large", "The picture would have too many pixels."),
+    RendererUnavailable: Kind(503, "renderer-unavailable", "This machine cannot draw."),
+    WorkerLost: Kind(500, "worker-lost", "The work ended a process, twice."),
+    DeadlineExceeded: Kind(504, "deadline-exceeded", "The work took too long."),
+    Overloaded: Kind(503, "overloaded", "The service is busy."),
+    RequestValidationError: Kind(400, "invalid-parameter", "A query parameter is wrong."),
+    NotAcceptableError: Kind(406, "not-acceptable", "No format fits what is accepted."),
+    UnsupportedMediaTypeError: Kind(415, "unsupported-media-type", "The body is not plain JSON."),
+    BodyTooLargeError: Kind(413, "body-too-large", "The body has too many bytes."),
+}
+
+UNEXPECTED = Kind(500, "unexpected-error", "Something went wrong that should not.")
+
+
+def problem_response(request: Request, error: Exception) -> Response:
+    """The problem that ``error`` is to a client. Nothing of our insides shows in it."""
+    kind = _kind_of(error)
+    details: dict[str, Any] = {
+        "type": kind.type,
+        "title": kind.title,
+        "status": kind.status,
+        "detail": _detail(error),
+    }
+    if "request_id" in request.scope.get("state", {}):
+        details["instance"] = f"urn:tubeloom:request:{request.state.request_id}"
+    if errors := _errors(error):
+        details["errors"] = errors
+    return Response(
+        json.dumps(details, ensure_ascii=False),
+        status_code=kind.status,
+        media_type=MEDIA_TYPE,
+        headers=_headers(error),
+    )
+
+
+async def answer_problem(request: Request, error: Exception) -> Response:
+    """`problem_response` as an exception handler of the application."""
+    return problem_response(request, error)
+
+
+def _kind_of(error: Exception) -> Kind:
+    if isinstance(error, HTTPException):
+        phrase = HTTPStatus(error.status_code).phrase
+        return Kind(error.status_code, phrase.lower().replace(" ", "-"), f"{phrase}.")
+    return next((KINDS[cls] for cls in type(error).__mro__ if cls in KINDS), UNEXPECTED)
+
+
+def _detail(error: Exception) -> str:
+    match error:
+        case DocumentError(faults=faults):
+            more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+            first = faults[0]
+            return (
+                f"{first.pointer}: {first.detail}{more}" if first.pointer else first.detail + more
+            )
+        case RequestValidationError():
+            return "; ".join(f"{fault['parameter']}: {fault['detail']}" for fault in _errors(error))
+        case HTTPException():
+            return error.detail
+        case TubeloomError() | RefusalError():
+            return str(error)
+        case _:
+            return "The service's log says more, under this request's id."
+
+
+def _errors(error: Exception) -> Sequence[Mapping[str, str]]:
+    match error:
+        case DocumentError():
+            return [{"pointer": fault.pointer, "detail": fault.detail} for fault in error.faults]
+        case RequestValidationError():
+            return [
+                {"parameter": str(fault["loc"][-1]), "detail": _parameter_detail(fault)}
+                for fault in error.errors()
+            ]
+        case _:
+            return []
+
+
+def _parameter_detail(fault: Mapping[str, Any]) -> str:
+    if fault["type"] == "extra_forbidden":
+        return "There is no such parameter."
+    return f"{fault['msg']}."
+
+
+def _headers(error: Exception) -> Mapping[str, str] | None:
+    match error:
+        case HTTPException():
+            return error.headers
+        case Overloaded():
+            return {"Retry-After": str(RETRY_AFTER_SECONDS)}
+        case _:
+            return None

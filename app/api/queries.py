@@ -1,0 +1,75 @@
+"""Query parameters as pydantic models, strict about names: typos must not pass in silence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler
+from pydantic_core import PydanticCustomError, core_schema
+
+from app.formats.registry import FORMATS
+from app.output.media import SceneFormat
+
+
+@dataclass(frozen=True, slots=True)
+class OneOf:
+    """Metadata for ``Annotated[str, …]``: nothing but these names."""
+
+    names: tuple[str, ...]
+
+    def __get_pydantic_core_schema__(
+        self, _source: Any, _handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.literal_schema(list(self.names))
+
+
+def _true_or_false(value: object) -> bool:
+    if value not in {"true", "false"}:
+        raise PydanticCustomError("flag", "Input should be 'true' or 'false'")
+    return value == "true"
+
+
+Readable = Annotated[str, OneOf(tuple(FORMATS))]
+Writable = Annotated[str, OneOf(tuple(name for name, found in FORMATS.items() if found.writes))]
+Flag = Annotated[bool, BeforeValidator(_true_or_false)]
+Pixels = Annotated[int, Field(ge=1, le=8192)]
+
+
+class Query(BaseModel):
+    """What may stand after the question mark of any call that takes a document."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    source: Readable | None = Field(
+        None,
+        alias="from",
+        description="Format of the posted document; left out, its media type tells.",
+    )
+
+
+class RenderQuery(Query):
+    """What may be asked of a scene."""
+
+    format: SceneFormat | None = Field(
+        None, description="Format of the answer. It wins over `Accept`; without both, `glb`."
+    )
+    width: Pixels = Field(
+        1024, description="Of the picture, in pixels; with the height, the aspect of the camera."
+    )
+    height: Pixels = Field(768, description="Of the picture, in pixels.")
+    quality: Literal["draft"] = Field("draft", description="How a picture is drawn.")
+
+
+class LayoutQuery(Query):
+    """What may be asked of a layout."""
+
+    patches: Flag = Field(
+        False, description="Add the paper's pair of Bezier patches to each segment."
+    )
+
+
+class ConvertQuery(Query):
+    """What may be asked of a conversion."""
+
+    target: Writable = Field("tubeloom", alias="to", description="Format of the answer.")

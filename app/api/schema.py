@@ -1,0 +1,177 @@
+"""The interface's description (OpenAPI): what bodies and answers hold.
+
+Documents are read as raw bytes, so that workers parse them; therefore their schema is put in here
+by hand. ``tubeloom openapi`` writes the whole.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+from pydantic import BaseModel, Field
+from pydantic.json_schema import models_json_schema
+
+from app.api import problems
+from app.api.journal import HEADER as REQUEST_ID
+from app.api.layout_model import LayoutNumbers
+from app.formats.registry import FORMATS
+from app.formats.yosys import Netlist
+from app.output.media import SceneFormat
+from app.program.model import Program
+
+EXAMPLE = {
+    "name": "A relation of three",
+    "items": [
+        {"id": "x", "label": "X"},
+        {"id": "y", "label": "Y", "shape": {"type": "sphere"}},
+        {"id": "z", "label": "Z"},
+    ],
+    "hyperedges": [
+        {"id": "e", "label": "E", "attachments": [{"item": "x"}, {"item": "y"}, {"item": "z"}]}
+    ],
+}
+
+DOCUMENTS: Mapping[str, type[BaseModel]] = {"tubeloom": Program, "yosys": Netlist}
+"""What the documents of each format follow."""
+
+NETLIST = {
+    "modules": {
+        "inverter": {
+            "ports": {
+                "a": {"direction": "input", "bits": [2]},
+                "y": {"direction": "output", "bits": [3]},
+            },
+            "cells": {
+                "not": {
+                    "type": "$not",
+                    "port_directions": {"A": "input", "Y": "output"},
+                    "connections": {"A": [2], "Y": [3]},
+                }
+            },
+        }
+    }
+}
+
+EXAMPLES: Mapping[str, Any] = {"tubeloom": EXAMPLE, "yosys": NETLIST}
+
+_REFERENCES = "#/components/schemas/{model}"
+
+_BINARY = {"type": "string", "format": "binary"}
+
+_PROBLEMS: Mapping[int, str] = {
+    400: "A parameter, or the document, does not follow its schema.",
+    406: "No format fits what is accepted.",
+    413: "The document exceeds a limit.",
+    415: "The body is not plain JSON.",
+    422: "The document contradicts itself, or too many pixels are asked for.",
+    500: "A worker process died over the document, twice.",
+    503: "The service is busy, or cannot draw.",
+    504: "The work took too long.",
+}
+
+
+class Fault(BaseModel):
+    """One thing that is wrong: where, and what would be right."""
+
+    pointer: str | None = Field(None, description="Into the document: a JSON pointer.")
+    parameter: str | None = Field(None, description="The query parameter.")
+    detail: str
+
+
+class Problem(BaseModel):
+    """What went wrong (RFC 9457)."""
+
+    type: str = Field(description="Names the kind of problem; stable.")
+    title: str
+    status: int
+    detail: str
+    instance: str | None = Field(None, description="Names the request, as the log does.")
+    errors: list[Fault] = Field([], description="Everything that is wrong, not only the first.")
+
+
+def describe(call: str) -> dict[str, Any]:
+    """What FastAPI cannot know of a ``call`` (render, layout, convert), as a route's arguments."""
+    return {
+        "response_model": None,
+        "responses": {
+            200: {
+                "description": "The answer.",
+                "headers": _headers("ETag", "Vary", "Content-Disposition", "Server-Timing"),
+                "content": _contents(call),
+            },
+            304: {
+                "description": "The client has this answer already (`If-None-Match`).",
+                "headers": _headers("ETag", "Vary"),
+            },
+            **{status: _problem(detail) for status, detail in _PROBLEMS.items()},
+        },
+        "openapi_extra": {"requestBody": {"required": True, "content": _documents()}},
+    }
+
+
+def openapi(app: FastAPI) -> dict[str, Any]:
+    """The description of ``app``, with the schemas of documents, numbers and problems."""
+    if app.openapi_schema is None:
+        described = get_openapi(
+            title=app.title,
+            version=app.version,
+            summary=app.summary,
+            description=app.description,
+            license_info=app.license_info,
+            routes=app.routes,
+            tags=app.openapi_tags,
+        )
+        _, ours = models_json_schema(
+            [
+                *((model, "validation") for model in DOCUMENTS.values()),
+                (LayoutNumbers, "validation"),
+                (Problem, "validation"),
+            ],
+            ref_template=_REFERENCES,
+        )
+        schemas = described.setdefault("components", {}).setdefault("schemas", {})
+        schemas.update(ours["$defs"])
+        described["components"]["schemas"] = dict(sorted(schemas.items()))
+        app.openapi_schema = described
+    return app.openapi_schema
+
+
+def openapi_text(app: FastAPI) -> str:
+    """The description as it stands in the file ``openapi.json``."""
+    return json.dumps(openapi(app), indent=2, ensure_ascii=False) + "\n"
+
+
+def _documents() -> dict[str, Any]:
+    return {
+        found.media_type: {"schema": _reference(DOCUMENTS[name]), "example": EXAMPLES[name]}
+        for name, found in FORMATS.items()
+    }
+
+
+def _contents(call: str) -> dict[str, Any]:
+    match call:
+        case "render":
+            return {scene.media_type: {"schema": _BINARY} for scene in SceneFormat}
+        case "layout":
+            return {"application/json": {"schema": _reference(LayoutNumbers)}}
+        case _:
+            return {"application/json": {"schema": _reference(Program)}}
+
+
+def _problem(detail: str) -> dict[str, Any]:
+    return {
+        "description": detail,
+        "content": {problems.MEDIA_TYPE: {"schema": _reference(Problem)}},
+    }
+
+
+def _headers(*names: str) -> dict[str, Any]:
+    return {name: {"schema": {"type": "string"}} for name in (*names, REQUEST_ID)}
+
+
+def _reference(model: type[BaseModel]) -> dict[str, str]:
+    return {"$ref": _REFERENCES.format(model=model.__name__)}

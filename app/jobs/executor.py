@@ -1,0 +1,207 @@
+"""Worker processes that answer calls of the pipeline, and the line that waits for them.
+
+Each process does one work at a time, so one that native code kills takes only that work with it;
+the work is tried once more, and the process replaced.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from dataclasses import dataclass
+from typing import Self
+
+import structlog
+
+from app.answers import Answer, Options, Unchanged
+from app.errors import DeadlineExceeded, Overloaded, WorkerLost
+from app.jobs.process import WorkerDiedError, WorkerProcess
+from app.jobs.work import Crash, Reply, Stage, Work
+from app.settings import Settings
+
+log = structlog.get_logger("tubeloom.jobs")
+
+START_SECONDS = 120.0
+"""A worker that is not warm by then is stuck; compiling every kernel anew takes some 30."""
+
+GRACE_SECONDS = 1.0
+"""How long work that nobody waits for may go on: about as long as a new worker takes to start."""
+
+LONGEST_PAUSE_SECONDS = 30.0
+"""Between attempts to start workers that die at their start."""
+
+
+class UnexpectedError(Exception):
+    """The pipeline raised what it never should; carries the worker's traceback."""
+
+
+@dataclass(frozen=True, slots=True)
+class Finished:
+    """An answer, the seconds it waited for a worker, and how long its stages took.
+
+    The answer's body stands apart, in the pieces in which it came.
+    """
+
+    answer: Answer | Unchanged
+    pieces: tuple[bytes, ...]
+    waited: float
+    stages: tuple[Stage, ...]
+
+
+class WorkerPool:
+    """As many worker processes as the settings say, each replaced when it dies.
+
+    Use it as an asynchronous context manager. Its start does not wait for the workers: works
+    that come before they are warm stand in line.
+    """
+
+    def __init__(self, settings: Settings) -> None:
+        self._settings = settings
+        self._idle: list[WorkerProcess] = []
+        self._line: deque[asyncio.Future[WorkerProcess]] = deque()
+        self._slots: list[asyncio.Task[None]] = []
+        self.warm = 0
+        """How many workers are alive and have warmed up."""
+        self.draft_problem: str | None = "No worker has started yet."
+        """Why drafts cannot be drawn here, if they cannot."""
+
+    async def __aenter__(self) -> Self:
+        self._slots = [
+            asyncio.create_task(self._keep_manned(), name=f"worker slot {number}")
+            for number in range(self._settings.workers)
+        ]
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        for slot in self._slots:
+            slot.cancel()
+        await asyncio.gather(*self._slots, return_exceptions=True)
+
+    async def answer(
+        self, document: bytes, options: Options, known: frozenset[str] = frozenset()
+    ) -> Finished:
+        """Answer in a worker process.
+
+        Raises what the pipeline raises, and `Overloaded`, `DeadlineExceeded`, `WorkerLost`. When
+        the caller is cancelled, work that goes on for long is stopped.
+        """
+        clock = asyncio.get_running_loop().time
+        waited = 0.0
+        for retry in (False, True):
+            came = clock()
+            worker = await self._take(first=retry)
+            waited += clock() - came
+            try:
+                reply, pieces = await self._do(worker, Work(options, known), document)
+            except WorkerDiedError:
+                log.warning("worker died at work", pid=worker.pid, retry=not retry)
+            else:
+                return Finished(_unwrap(reply), pieces, waited, reply.stages)
+        raise WorkerLost("The process that worked on this document died, and so did a second one.")
+
+    async def _do(
+        self, worker: WorkerProcess, work: Work, document: bytes
+    ) -> tuple[Reply, tuple[bytes, ...]]:
+        future = worker.ask(work, document)
+        try:
+            await asyncio.wait({future}, timeout=self._settings.deadline_seconds)
+        except asyncio.CancelledError:
+            self._abandon(worker, future)
+            raise
+        if not future.done():
+            worker.kill()
+            future.cancel()
+            log.warning("worker stopped at the deadline", pid=worker.pid)
+            raise DeadlineExceeded(
+                f"The work took longer than {self._settings.deadline_seconds:g} seconds."
+            )
+        reply = future.result()
+        self._give(worker)
+        return reply
+
+    def _abandon(
+        self, worker: WorkerProcess, future: asyncio.Future[tuple[Reply, tuple[bytes, ...]]]
+    ) -> None:
+        """Nobody waits any more: let short work end, which keeps its worker; stop long work."""
+        stop = asyncio.get_running_loop().call_later(GRACE_SECONDS, worker.kill)
+
+        def settle(settled: asyncio.Future[tuple[Reply, tuple[bytes, ...]]]) -> None:
+            stop.cancel()
+            if settled.exception() is None:
+                self._give(worker)
+
+        future.add_done_callback(settle)
+
+    async def _take(self, *, first: bool = False) -> WorkerProcess:
+        """A worker with nothing to do; where there is none, stand in line (or ``first`` in it)."""
+        while self._idle:
+            worker = self._idle.pop()
+            if not worker.died.done():
+                return worker
+        if len(self._line) >= self._settings.max_waiting and not first:
+            raise Overloaded("All workers are busy and the line is full; try again soon.")
+        place: asyncio.Future[WorkerProcess] = asyncio.get_running_loop().create_future()
+        (self._line.appendleft if first else self._line.append)(place)
+        try:
+            await asyncio.wait({place}, timeout=self._settings.deadline_seconds)
+        except asyncio.CancelledError:
+            if place.done():
+                self._give(place.result())
+            else:
+                self._line.remove(place)
+            raise
+        if not place.done():
+            self._line.remove(place)
+            raise Overloaded("No worker became free in time; try again soon.")
+        return place.result()
+
+    def _give(self, worker: WorkerProcess) -> None:
+        """Hand a worker that has nothing to do to whoever is first in line."""
+        if worker.died.done():
+            return
+        if self._line:
+            self._line.popleft().set_result(worker)
+        else:
+            self._idle.append(worker)
+
+    async def _keep_manned(self) -> None:
+        """Start a worker, wait until it dies, start the next; wait longer where starting fails."""
+        pause = 0.0
+        while True:
+            worker = await WorkerProcess.start(self._settings)
+            try:
+                if await self._warmed_up(worker):
+                    pause = 0.0
+                    self.warm += 1
+                    self._give(worker)
+                    await asyncio.shield(worker.died)
+                    self.warm -= 1
+                else:
+                    pause = min(max(2 * pause, 1.0), LONGEST_PAUSE_SECONDS)
+            finally:
+                await worker.end()
+            await asyncio.sleep(pause)
+
+    async def _warmed_up(self, worker: WorkerProcess) -> bool:
+        try:
+            async with asyncio.timeout(START_SECONDS):
+                first = await worker.ready()
+        except (WorkerDiedError, TimeoutError):
+            log.warning("worker did not start", pid=worker.pid)
+            return False
+        if isinstance(first, Crash):
+            log.error("worker did not start", pid=worker.pid, traceback=first.traceback)
+            return False
+        self.draft_problem = first.draft_problem
+        log.info("worker ready", pid=worker.pid, draft_problem=first.draft_problem)
+        return True
+
+
+def _unwrap(reply: Reply) -> Answer | Unchanged:
+    match reply.outcome:
+        case Answer() | Unchanged() as answer:
+            return answer
+        case Crash(traceback=traceback):
+            raise UnexpectedError(traceback)
+        case error:
+            raise error

@@ -1,0 +1,50 @@
+"""What the service asks of a worker, and what a worker replies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from app.answers import Answer, Options, Unchanged
+from app.errors import TubeloomError
+
+
+@dataclass(frozen=True, slots=True)
+class Work:
+    """One call of the pipeline; the document follows as raw bytes."""
+
+    options: Options
+    known: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class Crash:
+    """An error that nobody foresaw, as its traceback."""
+
+    traceback: str
+
+
+Outcome: TypeAlias = Answer | Unchanged | TubeloomError | Crash
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """A part of the work, and how many seconds it took."""
+
+    name: str
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """What became of a work. An answer's body follows as raw bytes."""
+
+    outcome: Outcome
+    stages: tuple[Stage, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """A worker is warm. ``draft_problem`` says why it cannot draw drafts, if it cannot."""
+
+    draft_problem: str | None

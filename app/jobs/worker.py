@@ -1,0 +1,98 @@
+"""A worker process: reads works from its socket, answers them one after another.
+
+Run as ``python -m app.jobs.worker FD``, where FD is its end of a socket pair. Native code that
+crashes takes this process with it and nothing else.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import select
+import signal
+import socket
+import sys
+import threading
+import time
+import traceback
+from dataclasses import replace
+
+from app import pipeline
+from app.answers import Answer, RenderOptions
+from app.errors import TubeloomError
+from app.jobs import channel
+from app.jobs.work import Crash, Ready, Reply, Stage, Work
+from app.output.draft import draft_problem
+from app.settings import Settings
+
+WARM_UP = b"""{
+  "items": [{"id": "a", "label": "a"}, {"id": "b", "shape": {"type": "sphere"}}, {"id": "c"}],
+  "hyperedges": [{"id": "e", "attachments": [{"item": "a"}, {"item": "b"}, {"item": "c"}]}]
+}"""
+"""A program that takes every kernel through its first call, which loads it."""
+
+
+def main() -> None:
+    """Serve the socket whose descriptor is the first argument, until its other end closes."""
+    # Ctrl-C goes to the whole group; the service ends its workers itself.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end = socket.socket(fileno=int(sys.argv[1]))
+    threading.Thread(target=_die_with_the_service, args=(end,), daemon=True).start()
+    try:
+        settings: Settings = channel.receive(end)[0]
+        channel.send(end, _prepare(settings))
+        while True:
+            work, document = channel.receive(end)
+            reply, body = do(work, document, settings)
+            channel.send(end, reply, body)
+    except (EOFError, OSError):
+        return
+
+
+def do(work: Work, document: bytes, settings: Settings) -> tuple[Reply, bytes]:
+    """Answer one work. Whatever goes wrong goes into the reply."""
+    stages: list[tuple[str, float]] = []
+
+    def note(stage: str, _share: float) -> None:
+        stages.append((stage, time.perf_counter()))
+
+    try:
+        outcome = pipeline.answer(document, work.options, settings, work.known, note)
+    except TubeloomError as error:
+        return Reply(error, _durations(stages)), b""
+    except Exception:
+        return Reply(Crash(traceback.format_exc()), _durations(stages)), b""
+    if isinstance(outcome, Answer):
+        return Reply(replace(outcome, body=b""), _durations(stages)), outcome.body
+    return Reply(outcome, _durations(stages)), b""
+
+
+def _prepare(settings: Settings) -> Ready | Crash:
+    """Load every kernel, before the first work comes."""
+    reply, _ = do(Work(RenderOptions()), WARM_UP, settings)
+    if isinstance(reply.outcome, Crash):
+        return reply.outcome
+    if isinstance(reply.outcome, TubeloomError):
+        raise reply.outcome
+    return Ready(draft_problem())
+
+
+def _durations(stages: list[tuple[str, float]]) -> tuple[Stage, ...]:
+    ends = [*stages, ("", time.perf_counter())]
+    return tuple(
+        Stage(name, end - start)
+        for (name, start), (_, end) in itertools.pairwise(ends)
+        if name != "done"
+    )
+
+
+def _die_with_the_service(end: socket.socket) -> None:
+    """Wait until the other end is closed, be it by ``kill -9``, and end this process at once."""
+    hang_up = select.poll()
+    hang_up.register(end.fileno(), 0)
+    hang_up.poll()
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

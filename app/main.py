@@ -1,0 +1,57 @@
+"""The application: HTTP in front of a pool of worker processes."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+from fastapi import FastAPI
+from starlette.exceptions import HTTPException
+
+from app import __version__
+from app.api import catalogue, docs, health, programs, schema
+from app.api.journal import Journal
+from app.api.problems import KINDS, answer_problem
+from app.jobs.executor import WorkerPool
+from app.settings import Settings
+from app.settings import settings as settings_of_process
+
+DESCRIPTION = """
+Lays out the hyperedges of a posted program as smooth tubes in three dimensions.
+
+```
+curl --data-binary @program.json 'http://127.0.0.1:8000/v1/render?format=png' -o program.png
+```
+"""
+
+
+def create_app(settings: Settings | None = None) -> FastAPI:
+    """The application, with the ``settings`` given or those of the environment."""
+    chosen = settings or settings_of_process()
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        async with WorkerPool(chosen) as pool:
+            app.state.pool = pool
+            yield
+
+    app = FastAPI(
+        title="Tubeloom",
+        version=__version__,
+        summary="Relations that join many things at once, as smooth tubes in three dimensions.",
+        description=DESCRIPTION,
+        license_info={"name": "MIT", "identifier": "MIT"},
+        lifespan=lifespan,
+        docs_url=None,
+        redoc_url=None,
+        redirect_slashes=False,
+        exception_handlers=dict.fromkeys([*KINDS, HTTPException], answer_problem),
+        telemetry={"tracing": False, "metrics": False, "logs": False},
+    )
+    app.state.settings = chosen
+    app.add_middleware(Journal)
+    for router in (programs.router, catalogue.router, health.router, docs.router):
+        app.include_router(router)
+    app.router.routes.append(docs.assets())
+    app.openapi = lambda: schema.openapi(app)  # type: ignore[method-assign]  # FastAPI's own way
+    return app

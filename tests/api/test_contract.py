@@ -1,0 +1,48 @@
+"""Does the service keep to its published description? Schemathesis asks, with all its checks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import schemathesis
+from hypothesis import HealthCheck, settings
+from schemathesis.config import SchemathesisConfig
+
+from app.formats.registry import FORMATS
+from tests.service import Service
+
+# A document can follow the schema and still contradict itself (an attachment to an item that does
+# not exist), which JSON Schema cannot say: 422 says it. Everything else that follows the schema
+# must be taken, so 400 is not among these.
+CONFIG = {
+    "checks": {
+        "positive_data_acceptance": {"expected-statuses": ["2xx", "422"]},
+        # All that stands there by default, and 413, with which large numbers of items are refused.
+        "negative_data_rejection": {
+            "expected-statuses": ["400", "404", "405", "406", "413", "415", "422"]
+        },
+    },
+    "generation": {"deterministic": True},
+}
+
+
+# Another test holds this file equal to what the service says of itself.
+schema = schemathesis.openapi.from_path(
+    Path(__file__).parents[2] / "openapi.json", config=SchemathesisConfig.from_dict(CONFIG)
+)
+
+
+@schemathesis.hook
+def map_case(_context: Any, case: schemathesis.Case) -> schemathesis.Case:
+    """Let ``from`` agree with the body: which format a document is in, only both together say."""
+    implied = {found.media_type: name for name, found in FORMATS.items()}
+    if case.media_type in implied and case.query and case.query.get("from") in FORMATS:
+        case.query["from"] = implied[case.media_type]
+    return case
+
+
+@schema.parametrize()
+@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+def test_the_service_does_what_it_says(case: schemathesis.Case, service: Service) -> None:
+    case.call_and_validate(base_url=service.url)

@@ -1,0 +1,98 @@
+"""What happens while workers are busy, die, or are kept waiting for."""
+
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import httpx
+import pytest
+
+from tests.service import (
+    PATIENCE_SECONDS,
+    SMALL,
+    Service,
+    cpu_seconds,
+    large_program,
+    running_service,
+    until,
+)
+
+LARGE = large_program(2000)
+
+
+def test_a_heavy_render_keeps_nobody_else_waiting(service: Service, client: httpx.Client) -> None:
+    with ThreadPoolExecutor(1) as background, service.client() as other:
+        heavy = background.submit(other.post, "/v1/render", content=LARGE)
+        waits = []
+        while not heavy.done():
+            began = time.perf_counter()
+            assert client.get("/healthz").status_code == 200
+            waits.append(time.perf_counter() - began)
+        assert heavy.result().status_code == 200
+    assert len(waits) > 20
+    assert sorted(waits)[len(waits) // 2] < 0.05
+
+
+def test_a_worker_killed_at_work_costs_its_request_a_retry_and_others_nothing(
+    service: Service, client: httpx.Client
+) -> None:
+    whole = client.post("/v1/render", content=LARGE)
+    assert whole.status_code == 200
+    before = {worker.pid for worker in service.workers()}
+    spent = {worker.pid: cpu_seconds(worker) for worker in service.workers()}
+    with ThreadPoolExecutor(1) as background, service.client() as other:
+        heavy = background.submit(other.post, "/v1/render", content=LARGE)
+        victim = until(lambda: service.busy_worker(spent))
+        victim.kill()
+        assert client.post("/v1/render", json=SMALL).status_code == 200
+        assert heavy.result().status_code == 200
+        assert heavy.result().content == whole.content
+    until(lambda: client.get("/readyz").json()["workers"]["warm"] == 2)
+    after = {worker.pid for worker in service.workers()}
+    assert after & before == before - {victim.pid}
+
+
+def test_who_leaves_has_the_long_work_stopped(service: Service, client: httpx.Client) -> None:
+    very_large = large_program(8000)
+    spent = {worker.pid: cpu_seconds(worker) for worker in service.workers()}
+    with service.client() as other, pytest.raises(httpx.ReadTimeout):
+        other.post(
+            "/v1/render", content=very_large, timeout=httpx.Timeout(PATIENCE_SECONDS, read=1)
+        )
+    victim = until(lambda: service.busy_worker(spent))
+    until(lambda: not victim.is_running())
+    until(lambda: client.get("/readyz").json()["workers"]["warm"] == 2)
+
+
+@pytest.fixture(scope="module")
+def hurried(tmp_path_factory: pytest.TempPathFactory) -> Service:
+    """A service of one worker that has little time and no line."""
+    folder = tmp_path_factory.mktemp("hurried")
+    with running_service(folder, workers=1, max_waiting=0, deadline_seconds=0.3) as service:
+        yield service
+
+
+def test_work_that_takes_too_long_is_stopped(hurried: Service) -> None:
+    with hurried.client() as client:
+        response = client.post("/v1/render", content=LARGE)
+        assert response.status_code == 504
+        assert response.json()["type"] == "urn:tubeloom:problem:deadline-exceeded"
+        until(lambda: client.post("/v1/render", json=SMALL).status_code == 200)
+
+
+def test_a_full_line_turns_requests_away(hurried: Service) -> None:
+    with hurried.client() as client, ThreadPoolExecutor(6) as crowd:
+        until(lambda: client.post("/v1/render", json=SMALL).status_code == 200)
+        answers = list(crowd.map(lambda _: client.post("/v1/render", content=LARGE), range(6)))
+    turned_away = [answer for answer in answers if answer.status_code == 503]
+    assert turned_away
+    assert turned_away[0].json()["type"] == "urn:tubeloom:problem:overloaded"
+    assert int(turned_away[0].headers["retry-after"]) > 0
+
+
+def test_workers_do_not_outlive_a_service_that_is_killed(tmp_path: Path) -> None:
+    with running_service(tmp_path, workers=1) as service:
+        workers = service.workers()
+        assert len(workers) == 1
+        service.process.kill()
+        until(lambda: not workers[0].is_running(), seconds=10)

@@ -1,0 +1,133 @@
+"""The pool with real workers, without HTTP."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+import psutil
+import pytest
+
+from app.answers import Answer, LayoutOptions, RenderOptions, Unchanged
+from app.errors import DeadlineExceeded, InvalidDocument, Overloaded
+from app.jobs.executor import WorkerPool
+from app.settings import Settings
+from tests.service import SMALL, large_program
+
+DOCUMENT = json.dumps(SMALL).encode()
+LARGE = large_program(2000)
+
+
+def with_pool(test: Callable[[WorkerPool], Coroutine[Any, Any, None]], **settings: Any) -> None:
+    async def run() -> None:
+        async with WorkerPool(Settings(**{"workers": 1, **settings})) as pool:
+            await test(pool)
+
+    asyncio.run(run())
+
+
+def worker_pids() -> set[int]:
+    return {
+        child.pid
+        for child in psutil.Process().children()
+        if child.status() != psutil.STATUS_ZOMBIE and "app.jobs.worker" in child.cmdline()
+    }
+
+
+async def warm(pool: WorkerPool) -> None:
+    """Have work done, as soon as there is a worker for it."""
+    while True:
+        try:
+            await pool.answer(DOCUMENT, LayoutOptions())
+        except Overloaded:
+            await asyncio.sleep(0.01)
+        else:
+            return
+
+
+def test_works_that_come_before_a_worker_is_warm_are_done() -> None:
+    async def test(pool: WorkerPool) -> None:
+        assert pool.warm == 0
+        finished = await pool.answer(DOCUMENT, RenderOptions())
+        assert isinstance(finished.answer, Answer)
+        assert finished.pieces[0].startswith(b"glTF")
+        assert finished.waited > 0
+        assert pool.warm == 1
+        again = await pool.answer(DOCUMENT, RenderOptions(), frozenset({finished.answer.etag}))
+        assert again.answer == Unchanged(finished.answer.etag)
+
+    with_pool(test)
+
+
+def test_errors_of_the_document_come_through_and_cost_no_worker() -> None:
+    async def test(pool: WorkerPool) -> None:
+        await warm(pool)
+        before = worker_pids()
+        with pytest.raises(InvalidDocument) as caught:
+            await pool.answer(b'{"items": 1}', RenderOptions())
+        assert caught.value.faults[0].pointer == "/items"
+        assert worker_pids() == before
+
+    with_pool(test)
+
+
+def test_a_worker_that_dies_idle_is_replaced_and_nobody_notices() -> None:
+    async def test(pool: WorkerPool) -> None:
+        await warm(pool)
+        (victim,) = worker_pids()
+        os.kill(victim, signal.SIGKILL)
+        await warm(pool)
+        assert victim not in worker_pids()
+
+    with_pool(test)
+
+
+def test_work_beyond_the_deadline_is_stopped_and_its_worker_replaced() -> None:
+    async def test(pool: WorkerPool) -> None:
+        await warm(pool)
+        (slow,) = worker_pids()
+        with pytest.raises(DeadlineExceeded):
+            await pool.answer(LARGE, RenderOptions())
+        await warm(pool)
+        assert slow not in worker_pids()
+
+    with_pool(test, deadline_seconds=0.3)
+
+
+def test_a_full_line_turns_works_away_at_once_and_leaving_it_frees_a_place() -> None:
+    async def test(pool: WorkerPool) -> None:
+        await warm(pool)
+        busy = asyncio.create_task(pool.answer(LARGE, RenderOptions()))
+        await asyncio.sleep(0)
+        waiting = asyncio.create_task(pool.answer(DOCUMENT, LayoutOptions()))
+        await asyncio.sleep(0)
+        with pytest.raises(Overloaded):
+            await pool.answer(DOCUMENT, LayoutOptions())
+        waiting.cancel()
+        await asyncio.wait({waiting})
+        await pool.answer(DOCUMENT, LayoutOptions())
+        assert busy.done()
+
+    with_pool(test, max_waiting=1)
+
+
+def test_short_work_that_nobody_waits_for_ends_and_keeps_its_worker() -> None:
+    async def test(pool: WorkerPool) -> None:
+        await warm(pool)
+        before = worker_pids()
+        leaving = asyncio.create_task(pool.answer(DOCUMENT, RenderOptions()))
+        await asyncio.sleep(0)
+        leaving.cancel()
+        await warm(pool)
+        assert worker_pids() == before
+
+    with_pool(test)
+
+
+def test_the_end_of_the_pool_is_the_end_of_its_workers() -> None:
+    with_pool(warm, workers=2)
+    assert not worker_pids()

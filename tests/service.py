@@ -1,0 +1,119 @@
+"""The real service, in a process of its own, for tests that speak HTTP."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+import httpx
+import psutil
+
+Found = TypeVar("Found")
+
+PATIENCE_SECONDS = 90.0
+"""For what should take a second or two, on a machine that compiles kernels for the first time."""
+
+
+@dataclass(frozen=True)
+class Service:
+    """A running service: where it listens, its process, and where its log goes."""
+
+    url: str
+    process: subprocess.Popen[bytes]
+    log: Path
+
+    def client(self) -> httpx.Client:
+        """A client with patience."""
+        return httpx.Client(base_url=self.url, timeout=PATIENCE_SECONDS)
+
+    def events(self) -> list[dict[str, Any]]:
+        """The lines of its log."""
+        lines = self.log.read_text().splitlines()
+        return [json.loads(line) for line in lines if line.startswith("{")]
+
+    def workers(self) -> list[psutil.Process]:
+        """Its worker processes."""
+        children = psutil.Process(self.process.pid).children()
+        return [child for child in children if "app.jobs.worker" in child.cmdline()]
+
+    def busy_worker(self, spent: dict[int, float]) -> psutil.Process | None:
+        """The worker that has computed since ``spent`` (CPU seconds by process) was noted."""
+        for worker in self.workers():
+            if cpu_seconds(worker) - spent.get(worker.pid, 0.0) > 0.2:
+                return worker
+        return None
+
+
+def cpu_seconds(process: psutil.Process) -> float:
+    """What it has computed so far."""
+    times = process.cpu_times()
+    return float(times.user + times.system)
+
+
+def until(find: Callable[[], Found], seconds: float = PATIENCE_SECONDS) -> Found:
+    """What ``find`` finds, as soon as it is true."""
+    end = time.monotonic() + seconds
+    while not (found := find()):
+        assert time.monotonic() < end, f"not within {seconds} s"
+        time.sleep(0.01)
+    return found
+
+
+@contextmanager
+def running_service(folder: Path, **settings: object) -> Iterator[Service]:
+    """A service with ``settings`` on a free port, warm."""
+    log = folder / "service.log"
+    environment = {f"TUBELOOM_{name.upper()}": str(value) for name, value in settings.items()}
+    with log.open("wb") as sink:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "app", "serve", "--port", "0"],
+            env={**os.environ, "TUBELOOM_LOG_FORMAT": "json", **environment},
+            stderr=sink,
+        )
+    try:
+        address = re.compile(r"running on (http://[0-9.:]+)")
+        found = until(lambda: address.search(log.read_text()) or process.poll())
+        assert isinstance(found, re.Match), log.read_text()
+        service = Service(found[1], process, log)
+        with service.client() as client:
+            until(lambda: _all_warm(client))
+        yield service
+    finally:
+        process.terminate()
+        process.wait(PATIENCE_SECONDS)
+
+
+def _all_warm(client: httpx.Client) -> bool:
+    workers = client.get("/readyz").json()["workers"]
+    return bool(workers["warm"] == workers["wanted"])
+
+
+SMALL: dict[str, Any] = {
+    "name": "A relation of three",
+    "items": [{"id": "x", "label": "X"}, {"id": "y"}, {"id": "z", "label": "Z"}],
+    "hyperedges": [{"id": "e", "attachments": [{"item": "x"}, {"item": "y"}, {"item": "z"}]}],
+}
+"""A program that is quick to render."""
+
+
+def large_program(items: int) -> bytes:
+    """A program that keeps a worker busy: so many labels, and a relation of each three of them."""
+    names = [f"{number:05}" for number in range(items)]
+    return json.dumps(
+        {
+            "items": [{"id": name, "label": name} for name in names],
+            "hyperedges": [
+                {"id": first, "attachments": [{"item": first}, {"item": second}, {"item": third}]}
+                for first, second, third in zip(names, names[1:], names[2:], strict=False)
+            ],
+        }
+    ).encode()

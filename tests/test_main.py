@@ -1,0 +1,10 @@
+import subprocess
+import sys
+
+HEAVY = ("numba", "pyrender", "trimesh", "scipy", "manifold3d", "PIL", "app.pipeline", "tqdm")
+
+
+def test_the_service_starts_without_what_only_workers_need() -> None:
+    code = f"import sys, app.main; print([name for name in {HEAVY} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
