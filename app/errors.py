@@ -48,7 +48,9 @@ class DocumentError(TubeloomError):
 
     def __init__(self, faults: Iterable[Fault]) -> None:
         self.faults: tuple[Fault, ...] = tuple(faults)
-        super().__init__("; ".join(f"{fault.pointer or '/'}: {fault.detail}" for fault in self.faults))
+        super().__init__(
+            "; ".join(f"{fault.pointer or '/'}: {fault.detail}" for fault in self.faults)
+        )
 
     def __reduce__(self) -> tuple[type[DocumentError], tuple[tuple[Fault, ...]]]:
         return type(self), (self.faults,)

@@ -33,7 +33,6 @@ class Settings(BaseSettings):
     max_label_characters: int = Field(
         100_000, ge=1, description="Over all labels that are drawn together."
     )
-    max_triangles: int = Field(20_000_000, ge=1)
     max_pixels: int = Field(4096 * 4096, ge=1)
 
 

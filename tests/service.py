@@ -59,7 +59,15 @@ def cpu_seconds(process: psutil.Process) -> float:
     return float(times.user + times.system)
 
 
-def until(find: Callable[[], Found], seconds: float = PATIENCE_SECONDS) -> Found:
+def gone(process: psutil.Process) -> bool:
+    """Whether it has ended, even if nobody has taken note of that yet."""
+    try:
+        return bool(process.status() == psutil.STATUS_ZOMBIE)
+    except psutil.NoSuchProcess:
+        return True
+
+
+def until(find: Callable[[], Found | None], seconds: float = PATIENCE_SECONDS) -> Found:
     """What ``find`` finds, as soon as it is true."""
     end = time.monotonic() + seconds
     while not (found := find()):

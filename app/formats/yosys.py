@@ -11,9 +11,9 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
-from app.errors import Fault, InvalidDocument
+from app.errors import Fault, InconsistentDocument
 from app.formats.netlist_layout import Block, Pin, arrange
 from app.program.base import Data
 from app.program.checking import check
@@ -22,8 +22,15 @@ from app.program.reading import validate
 from app.settings import Settings
 
 Direction = Literal["input", "output", "inout"]
-Bit = Annotated[int, Field(ge=0)] | Literal["0", "1", "x", "z"]
-Name = Annotated[str, Field(max_length=150)]
+
+
+def _whole(number: object) -> object:
+    """JSON knows no integers: 3.0 is 3."""
+    return int(number) if isinstance(number, float) and number.is_integer() else number
+
+
+Bit = Annotated[int, Field(ge=0), BeforeValidator(_whole)] | Literal["0", "1", "x", "z"]
+Name = Annotated[str, Field(min_length=1, max_length=150)]
 
 GIVING_PORTS = ("Y", "Q", "O", "OUT", "CO", "X")
 """Ports that most likely give, where a netlist does not say."""
@@ -63,7 +70,7 @@ class NetName(_Section):
     """A name for some nets."""
 
     bits: tuple[Bit, ...] = ()
-    hide_name: int = 0
+    hide_name: Annotated[int, BeforeValidator(_whole)] = 0
 
 
 class Module(_Section):
@@ -106,7 +113,9 @@ def _program(name: str, module: Module) -> Program:
     blocks = [*_ports(module), *_cells(module)]
     blocks += _constants(blocks)
     if not blocks:
-        raise InvalidDocument([Fault("/modules", f'Module "{name[:40]}" has no ports or cells.')])
+        raise InconsistentDocument(
+            [Fault("/modules", f'Module "{name[:40]}" has no ports or cells.')]
+        )
     nets: dict[int | str, list[tuple[Block, Pin]]] = defaultdict(list)
     for block in blocks:
         for pin in block.pins:

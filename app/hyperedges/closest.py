@@ -1,11 +1,12 @@
 """The closest pair of a changing set of points, again and again: the paper's CLOSEST (Numba).
 
-Pairs are compared by distance, then by their smaller number, then by their larger one, so that the
-same points always give the same pair.
+Of pairs equally close, the one with the smallest numbers comes first: by its smaller number, then
+by its larger. Points added later have larger numbers.
 
-Each living point has at most one entry in a heap: its nearest among the older points when it last
-looked. Where that one has died by the time the entry comes to the top, the point looks anew. Of two
-points the newer saw the older, so no pair is missed.
+Coincident points come first, from lists of those at one place. When no two points coincide any
+more, each living point has one entry in a heap: the pair that came first when it last looked. A
+pair is found stale when it comes to the top and one of its points has died; then the other looks
+anew. Whichever of two points came later saw the other, so no pair is missed.
 """
 
 from __future__ import annotations
@@ -16,24 +17,36 @@ import numpy as np
 from numba import njit
 
 from app.arrays import Floats, Indices
+from app.hyperedges.coincident import Places, add_to_place, empty_places, take_coincident
 from app.hyperedges.nearest import (
+    CHILD,
+    COUNT,
+    LEAF,
     Tree,
     empty_tree,
     insert,
     nearest,
+    precedes,
     rebuild,
+    remove,
     squared_distance,
 )
 
 
 class Pairs(NamedTuple):
-    """``counts``: entries in the heap, living points, living points when the tree was filled."""
+    """A set of points, and what is known of its closest pairs.
 
+    ``heap`` (n,) of points with ``keys`` (n,), the squared distances to their ``partners`` (n,);
+    ``sizes`` (5,): entries in the heap, living points, living points when the tree was built last
+    (0: not yet), points in all, coordinates that count.
+    """
+
+    places: Places
     tree: Tree
     heap: Indices
+    keys: Floats
     partners: Indices
-    distances: Floats
-    counts: Indices
+    sizes: Indices
 
 
 @njit(cache=True)
@@ -42,113 +55,146 @@ def closest_directly(
 ) -> tuple[int, int]:
     """Places in ``living[:count]`` (ascending) of the closest pair, by looking at every pair."""
     best = np.inf
-    first = 0
-    second = 1
+    first, second = 0, 1
     for a in range(count):
         for b in range(a + 1, count):
             distance = squared_distance(points, living[a], living[b], dimensions)
             if distance < best:
                 best = distance
-                first = a
-                second = b
+                first, second = a, b
     return first, second
-
-
-@njit(cache=True)
-def _before(pairs: Pairs, i: int, j: int) -> bool:
-    if pairs.distances[i] != pairs.distances[j]:
-        return bool(pairs.distances[i] < pairs.distances[j])
-    if pairs.partners[i] != pairs.partners[j]:
-        return bool(pairs.partners[i] < pairs.partners[j])
-    return i < j
-
-
-@njit(cache=True)
-def _push(pairs: Pairs, i: int) -> None:
-    place = pairs.counts[0]
-    pairs.counts[0] += 1
-    while place > 0:
-        parent = (place - 1) >> 1
-        if not _before(pairs, i, pairs.heap[parent]):
-            break
-        pairs.heap[place] = pairs.heap[parent]
-        place = parent
-    pairs.heap[place] = i
-
-
-@njit(cache=True)
-def _pop(pairs: Pairs) -> int:
-    top = pairs.heap[0]
-    pairs.counts[0] -= 1
-    count = pairs.counts[0]
-    if count > 0:
-        last = pairs.heap[count]
-        place = 0
-        while True:
-            child = 2 * place + 1
-            if child >= count:
-                break
-            if child + 1 < count and _before(pairs, pairs.heap[child + 1], pairs.heap[child]):
-                child += 1
-            if not _before(pairs, pairs.heap[child], last):
-                break
-            pairs.heap[place] = pairs.heap[child]
-            place = child
-        pairs.heap[place] = last
-    return int(top)
-
-
-@njit(cache=True)
-def _look(pairs: Pairs, points: Floats, i: int, dimensions: int) -> None:
-    partner, distance = nearest(pairs.tree, points, i, dimensions)
-    if partner >= 0:
-        pairs.partners[i] = partner
-        pairs.distances[i] = distance
-        _push(pairs, i)
 
 
 @njit(cache=True)
 def start(points: Floats, count: int, dimensions: int) -> Pairs:
     """The pairs of points 0 to ``count - 1``; ``points`` has rows for those to be added."""
     capacity = len(points)
-    pairs = Pairs(
-        empty_tree(capacity),
-        np.empty(capacity, np.int64),
-        np.full(capacity, -1, np.int64),
-        np.full(capacity, np.inf),
-        np.array([0, count, count]),
-    )
+    places = empty_places(capacity, dimensions)
     for i in range(count):
-        insert(pairs.tree, points, i, dimensions)
-        _look(pairs, points, i, dimensions)
-    return pairs
+        add_to_place(places, points, i)
+    return Pairs(
+        places,
+        empty_tree(capacity, count),
+        np.empty(capacity, np.int64),
+        np.empty(capacity),
+        np.full(capacity, -1, np.int64),
+        np.array([0, count, 0, count, dimensions]),
+    )
 
 
 @njit(cache=True)
-def take_closest(pairs: Pairs, points: Floats, dimensions: int) -> tuple[int, int]:
+def take_closest(pairs: Pairs, points: Floats) -> tuple[int, int]:
     """The closest pair, smaller number first; both points leave the set."""
-    alive = pairs.tree.alive
+    homes, partners = pairs.tree.homes, pairs.partners
+    pairs.sizes[1] -= 2
+    if pairs.sizes[2] == 0:
+        first, second = take_coincident(pairs.places)
+        if first >= 0:
+            return first, second
+        _look_all(pairs, points)
     while True:
-        i = _pop(pairs)
-        if not alive[i]:
+        i = _pop(pairs.heap, pairs.keys, partners, pairs.sizes)
+        if homes[i] < 0:
             continue
-        j = pairs.partners[i]
-        if not alive[j]:
-            _look(pairs, points, i, dimensions)
+        j = partners[i]
+        if homes[j] < 0:
+            _look(pairs, points, i)
             continue
-        alive[i] = False
-        alive[j] = False
-        pairs.counts[1] -= 2
-        return j, i
+        remove(pairs.tree, i)
+        remove(pairs.tree, j)
+        return min(i, j), max(i, j)
 
 
 @njit(cache=True)
-def add(pairs: Pairs, points: Floats, i: int, dimensions: int) -> None:
+def add(pairs: Pairs, points: Floats, i: int) -> None:
     """Point i, with a larger number than all before, joins the set."""
-    pairs.counts[1] += 1
-    if 2 * pairs.counts[1] < pairs.counts[2]:
-        living = np.flatnonzero(pairs.tree.alive)
-        rebuild(pairs.tree, points, living, dimensions)
-        pairs.counts[2] = pairs.counts[1]
-    insert(pairs.tree, points, i, dimensions)
-    _look(pairs, points, i, dimensions)
+    pairs.sizes[1] += 1
+    pairs.sizes[3] = i + 1
+    if pairs.sizes[2] == 0:
+        add_to_place(pairs.places, points, i)
+        return
+    # A tree that is mostly dead is slow to search.
+    if 2 * pairs.sizes[1] < pairs.sizes[2] or not insert(pairs.tree, points, i, pairs.sizes[4]):
+        pairs.tree.homes[i] = 0
+        _rebuild(pairs, points)
+    _look(pairs, points, i)
+
+
+@njit(cache=True)
+def living_points(pairs: Pairs) -> Indices:
+    """The numbers of the points in the set, ascending."""
+    count = pairs.sizes[3]
+    if pairs.sizes[2] == 0:
+        return np.flatnonzero(pairs.places.alive[:count])
+    return np.flatnonzero(pairs.tree.homes[:count] >= 0)
+
+
+@njit(cache=True)
+def _rebuild(pairs: Pairs, points: Floats) -> None:
+    living = living_points(pairs)
+    rebuild(pairs.tree, points, living, pairs.sizes[4])
+    pairs.sizes[2] = len(living)
+
+
+@njit(cache=True)
+def _look_all(pairs: Pairs, points: Floats) -> None:
+    """Every point looks for its nearest neighbour: from here on no two points coincide for long."""
+    _rebuild(pairs, points)
+    tree = pairs.tree
+    for node in range(tree.used[0]):
+        if tree.links[node, CHILD] < 0:
+            # Leaf by leaf, because neighbours search the same nodes.
+            for place in range(tree.links[node, COUNT]):
+                _look(pairs, points, int(tree.members[tree.links[node, LEAF], place]))
+
+
+@njit(cache=True)
+def _look(pairs: Pairs, points: Floats, i: int) -> None:
+    partner, distance = nearest(pairs.tree, points, i, pairs.sizes[4])
+    if partner >= 0:
+        pairs.partners[i] = partner
+        _push(pairs.heap, pairs.keys, pairs.partners, pairs.sizes, distance, i)
+
+
+@njit(cache=True)
+def _before(partners: Indices, distance: float, i: int, other: float, j: int) -> bool:
+    if distance != other:
+        return distance < other
+    a, b = partners[i], partners[j]
+    return precedes(distance, min(i, a), max(i, a), other, min(j, b), max(j, b))
+
+
+@njit(cache=True)
+def _push(
+    heap: Indices, keys: Floats, partners: Indices, sizes: Indices, distance: float, i: int
+) -> None:
+    place = sizes[0]
+    sizes[0] += 1
+    while place > 0:
+        parent = (place - 1) >> 1
+        if not _before(partners, distance, i, keys[parent], heap[parent]):
+            break
+        heap[place], keys[place] = heap[parent], keys[parent]
+        place = parent
+    heap[place], keys[place] = i, distance
+
+
+@njit(cache=True)
+def _pop(heap: Indices, keys: Floats, partners: Indices, sizes: Indices) -> int:
+    top = int(heap[0])
+    sizes[0] -= 1
+    count = sizes[0]
+    last, key = heap[count], keys[count]
+    place = 0
+    while 2 * place + 1 < count:
+        child = 2 * place + 1
+        if child + 1 < count and _before(
+            partners, keys[child + 1], heap[child + 1], keys[child], heap[child]
+        ):
+            child += 1
+        if not _before(partners, keys[child], heap[child], key, last):
+            break
+        heap[place], keys[place] = heap[child], keys[child]
+        place = child
+    heap[place], keys[place] = last, key
+    return top

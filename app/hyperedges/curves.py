@@ -7,34 +7,25 @@ enter a join M. With C the centroid of the points that are not joined yet:
 - ``symbolic``: C; the curve that leaves M follows 2M - C.
 
 The symbols make hairpins (1.8 times the length for three points), so the words are the default.
+
+A join takes the place after all attachments and earlier joins, which is what counts where two pairs
+are equally close. Of a pair, the curve from the point with the smaller number is listed first.
 """
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 from numba import njit
 
 from app.arrays import Floats, Indices
-from app.hyperedges.closest import add, closest_directly, start, take_closest
+from app.hyperedges.centroid import accumulate, average
+from app.hyperedges.closest import add, closest_directly, living_points, start, take_closest
+from app.hyperedges.segments import Curves, Points, Rules, join_last, join_two, normal
 
-Reading = Literal["prose", "symbolic"]
-
-DIRECT = 40
-"""Up to so many attachments, looking at every pair is faster than keeping a tree."""
-
-NO_LENGTH = 1e-12
-"""Vectors shorter than this have no direction."""
-
-
-class Curves(NamedTuple):
-    """What `lay_out` finds; for shapes see `app.hyperedges.routing.Routing`."""
-
-    control_points: Floats
-    ends: Indices
-    joins: Floats
-    tangents: Floats
+FEW = 40
+"""With so many connection points, looking at every pair is as fast as keeping a tree."""
 
 
 def lay_out(
@@ -43,26 +34,39 @@ def lay_out(
     starts: Indices,
     join_planes: Floats,
     *,
-    reading: Reading = "prose",
+    reading: Literal["prose", "symbolic"] = "prose",
+    fidelity: Literal["best", "paper"] = "best",
     closest: Literal["space", "plane"] = "space",
-    square: bool = False,
+    search: Literal["tree", "direct"] = "tree",
 ) -> Curves:
     """CURVES of h hyperedges.
 
-    ``attachments`` and their unit ``directions`` (a, 3), those of hyperedge k from ``starts[k]`` to
-    ``starts[k + 1]`` (h + 1,), two or more each; ``join_planes`` (h,). With ``square`` the control
-    point next to an attachment lies along the attachment's direction, as far away as the paper has
-    it. Returns ``control_points`` (s, 4, 3), ``ends`` (s, 2), ``joins`` (j, 3) and unit
-    ``tangents`` (j, 3), where a hyperedge of N attachments has 2N - 3 segments and N - 2 joins.
+    ``attachments`` and their unit, outward ``directions`` (a, 3), those of hyperedge k from
+    ``starts[k]`` to ``starts[k + 1]`` (h + 1,), two or more each; ``join_planes`` (h,). With
+    ``fidelity`` "best" the control point next to an attachment lies along its direction, as far
+    away as the paper has it; "plane" measures what is closest as seen from above.
+
+    A hyperedge of N attachments has 2N - 3 segments and N - 2 joins, in the order in which CURVES
+    makes them. ``search`` "direct" finds the same pairs in cubic time.
+
+    Raises `ValueError` where a hyperedge has fewer than two attachments.
+
+    >>> ends = np.array([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]])
+    >>> up = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]])
+    >>> curves = lay_out(ends, up, np.array([0, 2]), np.array([2.0]), fidelity="paper")
+    >>> curves.control_points[0].tolist()
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 2.0], [2.0, 0.0, 2.0], [3.0, 0.0, 0.0]]
     """
     hyperedges = len(starts) - 1
+    if hyperedges and int(np.diff(starts).min()) < 2:
+        raise ValueError("A hyperedge has two or more attachments.")
     segments = 2 * len(attachments) - 3 * hyperedges
     joins = len(attachments) - 2 * hyperedges
     curves = Curves(
-        np.empty((segments, 4, 3)),
-        np.empty((segments, 2), dtype=np.int64),
-        np.empty((joins, 3)),
-        np.empty((joins, 3)),
+        np.zeros((segments, 4, 3)),
+        np.zeros((segments, 2), dtype=np.int64),
+        np.zeros((joins, 3)),
+        np.zeros((joins, 3)),
     )
     if hyperedges:
         _lay_out_all(
@@ -70,12 +74,25 @@ def lay_out(
             np.ascontiguousarray(directions, dtype=np.float64),
             np.ascontiguousarray(starts, dtype=np.int64),
             np.ascontiguousarray(join_planes, dtype=np.float64),
-            reading == "prose",
-            square,
-            3 if closest == "space" else 2,
-            *curves,
+            Rules(
+                reading == "prose",
+                fidelity == "best",
+                3 if closest == "space" else 2,
+                search == "direct",
+            ),
+            curves,
         )
     return curves
+
+
+def segment_starts(starts: Indices) -> Indices:
+    """Where each hyperedge's segments begin, (h + 1,), from where its attachments do."""
+    return 2 * starts - 3 * np.arange(len(starts))
+
+
+def join_starts(starts: Indices) -> Indices:
+    """Where each hyperedge's joins begin, (h + 1,), from where its attachments do."""
+    return starts - 2 * np.arange(len(starts))
 
 
 @njit(cache=True)
@@ -83,296 +100,131 @@ def _lay_out_all(
     attachments: Floats,
     directions: Floats,
     starts: Indices,
-    planes: Floats,
-    prose: bool,
-    square: bool,
-    dimensions: int,
-    segments: Floats,
-    ends: Indices,
-    joins: Floats,
-    tangents: Floats,
+    join_planes: Floats,
+    rules: Rules,
+    curves: Curves,
 ) -> None:
-    largest = 0
+    most = 0
     for k in range(len(starts) - 1):
-        if starts[k + 1] - starts[k] <= DIRECT:
-            largest = max(largest, starts[k + 1] - starts[k])
-    points = np.empty((2 * largest, 3))
-    following = np.empty((2 * largest, 3))
-    living = np.empty(2 * largest, np.int64)
+        most = max(most, starts[k + 1] - starts[k])
+    positions = np.empty((2 * most - 2, 3))
+    following = np.empty((2 * most - 2, 3))
+    living = np.empty(most, np.int64)
+    centroid = np.empty(3)
     for k in range(len(starts) - 1):
-        first, last = starts[k], starts[k + 1]
-        s = slice(2 * first - 3 * k, 2 * last - 3 * (k + 1))
-        j = slice(first - 2 * k, last - 2 * (k + 1))
-        if last - first <= DIRECT:
-            _few(
-                attachments[first:last],
-                directions[first:last],
-                planes[k],
-                prose,
-                square,
-                dimensions,
-                points,
-                following,
-                living,
-                segments[s],
-                ends[s],
-                joins[j],
-                tangents[j],
-            )
+        begin = starts[k]
+        count = starts[k + 1] - begin
+        for i in range(count):
+            for axis in range(3):
+                positions[i, axis] = normal(attachments[begin + i, axis])
+        points = Points(positions, following, directions[begin : begin + count], count)
+        segment = 2 * begin - 3 * k
+        row = begin - 2 * k
+        done = 0
+        if count > FEW:
+            done = _join_many(points, living, centroid, join_planes[k], rules, curves, segment, row)
         else:
-            _many(
-                attachments[first:last],
-                directions[first:last],
-                planes[k],
-                prose,
-                square,
-                dimensions,
-                segments[s],
-                ends[s],
-                joins[j],
-                tangents[j],
-            )
+            for i in range(count):
+                living[i] = i
+        _join_few(points, living, centroid, join_planes[k], rules, curves, segment, row, done)
 
 
 @njit(cache=True)
-def _few(
-    attachments: Floats,
-    directions: Floats,
-    plane: float,
-    prose: bool,
-    square: bool,
-    dimensions: int,
-    points: Floats,
-    following: Floats,
+def _join_many(
+    points: Points,
     living: Indices,
-    segments: Floats,
-    ends: Indices,
-    joins: Floats,
-    tangents: Floats,
-) -> None:
-    """CURVES of a hyperedge of few attachments; ``points`` to ``living`` are scratch."""
-    count = len(attachments)
-    centroid = np.empty(3)
-    for i in range(count):
-        living[i] = i
-        for axis in range(3):
-            points[i, axis] = attachments[i, axis]
-    for step in range(count - 2):
-        left = count - step
-        a, b = closest_directly(points, living, left, dimensions)
-        first, second = living[a], living[b]
-        kept = 0
-        for axis in range(3):
-            centroid[axis] = 0.0
-        for place in range(left):
-            if place not in (a, b):
-                i = living[place]
-                living[kept] = i
-                kept += 1
-                for axis in range(3):
-                    centroid[axis] += points[i, axis]
-        for axis in range(3):
-            centroid[axis] /= kept
-        living[kept] = count + step
-        _join(
-            points,
-            following,
-            directions,
-            count,
-            step,
-            first,
-            second,
-            centroid,
-            plane,
-            prose,
-            square,
-            segments,
-            ends,
-            joins,
-            tangents,
-        )
-    _finish(
-        points, following, directions, count, living[0], living[1], plane, square, segments, ends
-    )
-
-
-@njit(cache=True)
-def _many(
-    attachments: Floats,
-    directions: Floats,
-    plane: float,
-    prose: bool,
-    square: bool,
-    dimensions: int,
-    segments: Floats,
-    ends: Indices,
-    joins: Floats,
-    tangents: Floats,
-) -> None:
-    """CURVES of a hyperedge of many attachments: the same curves, found through a k-d tree."""
-    count = len(attachments)
-    points = np.empty((2 * count - 2, 3))
-    following = np.empty((2 * count - 2, 3))
-    centroid = np.empty(3)
-    # Kahan's compensation keeps the running sum of many points right to the last digits.
-    total = np.zeros(3)
-    lost = np.zeros(3)
-    for i in range(count):
-        for axis in range(3):
-            points[i, axis] = attachments[i, axis]
-        _accumulate(total, lost, points[i], 1.0)
-    pairs = start(points, count, dimensions)
-    for step in range(count - 2):
-        first, second = take_closest(pairs, points, dimensions)
-        _accumulate(total, lost, points[first], -1.0)
-        _accumulate(total, lost, points[second], -1.0)
-        for axis in range(3):
-            centroid[axis] = total[axis] / (count - step - 2)
-        _join(
-            points,
-            following,
-            directions,
-            count,
-            step,
-            first,
-            second,
-            centroid,
-            plane,
-            prose,
-            square,
-            segments,
-            ends,
-            joins,
-            tangents,
-        )
-        _accumulate(total, lost, points[count + step], 1.0)
-        add(pairs, points, count + step, dimensions)
-    first, second = take_closest(pairs, points, dimensions)
-    _finish(points, following, directions, count, first, second, plane, square, segments, ends)
-
-
-@njit(cache=True)
-def _join(
-    points: Floats,
-    following: Floats,
-    directions: Floats,
-    count: int,
-    step: int,
-    first: int,
-    second: int,
     centroid: Floats,
     plane: float,
-    prose: bool,
-    square: bool,
-    segments: Floats,
-    ends: Indices,
-    joins: Floats,
-    tangents: Floats,
-) -> None:
-    """Join two connection points: one step of CURVES for more than two points."""
-    join = count + step
-    length = 0.0
-    for axis in range(3):
-        middle = (points[first, axis] + points[second, axis] + centroid[axis]) / 3.0
-        if axis == 2:
-            middle = plane
-        if prose:
-            entering = (middle + points[first, axis] + points[second, axis]) / 3.0
+    rules: Rules,
+    curves: Curves,
+    segment: int,
+    row: int,
+) -> int:
+    """Join points until `FEW` are left; the number of joins made. Writes ``living``."""
+    at, count = points.positions, points.number
+    total = np.zeros((2, 3))
+    for i in range(count):
+        accumulate(total, at[i], 1.0)
+        living[i] = i
+    pairs = start(at[: 2 * count - 2], 0 if rules.directly else count, rules.dimensions)
+    steps = count - FEW
+    for step in range(steps):
+        left = count - step
+        join = count + step
+        if rules.directly:
+            first, second = _take_directly(at, living, left, rules.dimensions)
+            living[left - 2] = join
         else:
-            entering = centroid[axis]
-        points[join, axis] = middle
-        following[join, axis] = 2.0 * middle - entering
-        joins[step, axis] = middle
-        tangents[step, axis] = middle - entering
-        length += (middle - entering) ** 2
-        for side in range(2):
-            segments[2 * step + side, 2, axis] = entering
-            segments[2 * step + side, 3, axis] = middle
-    if length <= NO_LENGTH * NO_LENGTH:
-        # No tangent from the formula: go towards what is still to be joined.
-        length = 0.0
+            first, second = take_closest(pairs, at)
+        accumulate(total, at[first], -1.0)
+        accumulate(total, at[second], -1.0)
         for axis in range(3):
-            onward = centroid[axis] - (points[first, axis] + points[second, axis]) / 2.0
-            tangents[step, axis] = onward
-            length += onward * onward
-    for axis in range(3):
-        if length > NO_LENGTH * NO_LENGTH:
-            tangents[step, axis] /= np.sqrt(length)
-        else:
-            tangents[step, axis] = 1.0 if axis == 0 else 0.0
-    for side in range(2):
-        end = first if side == 0 else second
-        segment = segments[2 * step + side]
-        for axis in range(3):
-            segment[0, axis] = points[end, axis]
-            if end >= count:
-                segment[1, axis] = following[end, axis]
-            else:
-                segment[1, axis] = (points[end, axis] + points[join, axis]) / 2.0
-        if square and end < count:
-            _turn_square(segment, 0, 1, directions[end])
-        ends[2 * step + side, 0] = end
-        ends[2 * step + side, 1] = join
+            centroid[axis] = total[0, axis] / (left - 2)
+        join_two(
+            points,
+            first,
+            second,
+            join,
+            centroid,
+            plane,
+            rules,
+            curves,
+            segment + 2 * step,
+            row + step,
+        )
+        accumulate(total, at[join], 1.0)
+        if not rules.directly:
+            add(pairs, at, join)
+    if not rules.directly:
+        living[:FEW] = living_points(pairs)
+    return steps
 
 
 @njit(cache=True)
-def _finish(
-    points: Floats,
-    following: Floats,
-    directions: Floats,
-    count: int,
-    first: int,
-    second: int,
+def _join_few(
+    points: Points,
+    living: Indices,
+    centroid: Floats,
     plane: float,
-    square: bool,
-    segments: Floats,
-    ends: Indices,
+    rules: Rules,
+    curves: Curves,
+    segment: int,
+    row: int,
+    done: int,
 ) -> None:
-    """The curve between the two connection points that are left."""
-    last = 2 * (count - 2)
-    segment = segments[last]
-    first_joined = first >= count
-    second_joined = second >= count
-    for axis in range(3):
-        one = points[first, axis]
-        other = points[second, axis]
-        segment[0, axis] = one
-        segment[3, axis] = other
-        if first_joined and second_joined:
-            segment[1, axis] = following[first, axis]
-            segment[2, axis] = following[second, axis]
-        elif first_joined:
-            segment[1, axis] = following[first, axis]
-            segment[2, axis] = (following[first, axis] + other) / 2.0
-        elif second_joined:
-            segment[1, axis] = (following[second, axis] + one) / 2.0
-            segment[2, axis] = following[second, axis]
-        else:
-            segment[1, axis] = (2.0 * one + other) / 3.0 if axis < 2 else plane
-            segment[2, axis] = (one + 2.0 * other) / 3.0 if axis < 2 else plane
-    if square and not first_joined:
-        _turn_square(segment, 0, 1, directions[first])
-    if square and not second_joined:
-        _turn_square(segment, 3, 2, directions[second])
-    ends[last, 0] = first
-    ends[last, 1] = second
+    """Join the points ``living`` that are left when ``done`` joins have been made."""
+    count = points.number
+    for step in range(done, count - 2):
+        left = count - step
+        join = count + step
+        first, second = _take_directly(points.positions, living, left, rules.dimensions)
+        average(points.positions, living, left - 2, centroid)
+        living[left - 2] = join
+        join_two(
+            points,
+            first,
+            second,
+            join,
+            centroid,
+            plane,
+            rules,
+            curves,
+            segment + 2 * step,
+            row + step,
+        )
+    join_last(points, living[0], living[1], plane, rules, curves, segment + 2 * (count - 2))
 
 
 @njit(cache=True)
-def _turn_square(segment: Floats, end: int, interior: int, direction: Floats) -> None:
-    """Turn an interior control point about its end to lie along ``direction``."""
-    length = 0.0
-    for axis in range(3):
-        length += (segment[interior, axis] - segment[end, axis]) ** 2
-    length = np.sqrt(length)
-    for axis in range(3):
-        segment[interior, axis] = segment[end, axis] + length * direction[axis]
-
-
-@njit(cache=True)
-def _accumulate(total: Floats, lost: Floats, summand: Floats, sign: float) -> None:
-    for axis in range(3):
-        corrected = sign * summand[axis] - lost[axis]
-        summed = total[axis] + corrected
-        lost[axis] = (summed - total[axis]) - corrected
-        total[axis] = summed
+def _take_directly(
+    positions: Floats, living: Indices, left: int, dimensions: int
+) -> tuple[int, int]:
+    """The closest pair of ``living[:left]``, which leaves it; the others move up, in order."""
+    a, b = closest_directly(positions, living, left, dimensions)
+    first, second = living[a], living[b]
+    kept = a
+    for place in range(a + 1, left):
+        if place != b:
+            living[kept] = living[place]
+            kept += 1
+    return first, second

@@ -1,117 +1,110 @@
 """How high each hyperedge rises: its join plane, where the document does not say.
 
-Hyperedges whose footprints (their boxes seen from above) overlap get different levels; each takes
-the lowest that is free, short ones first, so that they stay low. Footprints are rounded to the
-cells of a coarse grid: that costs a level here and there, and never looks at all pairs.
+An arch looks right when its height relates to its span, long ones flatter. From there upwards each
+hyperedge takes the lowest level that no other has whose footprint, its box seen from above,
+overlaps its own; short hyperedges choose first, so that long ones pass above them.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
+from app.hyperedges.footprints import highest_below, plant
+from app.hyperedges.levels import LEVELS, assign
+from app.placement.placement import Placement
 
-CELLS = 64
-"""Of the grid, along each side: a picture has room for no more columns of tubes."""
+ARCH = 2.0
+"""Height of a join plane above its attachments, over the root of span times radius.
 
-LEVELS = 512
-"""Levels that one cell can tell apart; where more hyperedges overlap, the last is shared."""
+With tubes of radius 0.08, a third of a span of three units, and a sixth of one of fifteen.
+"""
 
-RISE = 0.22
-"""Height of an arch over its span: lower ones look flat, higher ones like hoops."""
+ARCH_OF_JOINS = 1.5
+"""The same where there are joins: such curves rise above their plane, others stay below it."""
 
-LOWEST_RISE = 5.0
-"""Least height of an arch, in radii of its tube: room for two bends."""
+LEAST_RISE = 4.0
+"""Least height in radii: a bend and its way back."""
 
-HIGHEST_RISE = 3.0
-"""Greatest height that a span alone asks for, in document units."""
+PEAK = 0.75
+"""A curve between two attachments reaches this share of its join plane's height above them."""
 
 
-def choose_join_planes(
-    attachments: Floats,
-    starts: Indices,
-    radii: Floats,
-    clearance: float,
-    obstacle_lows: Floats,
-    obstacle_highs: Floats,
-) -> Floats:
-    """Join planes (h,), world z, of hyperedges whose ``attachments`` (a, 3) begin at ``starts``.
+def choose_join_planes(placement: Placement, clearance: float, join_heights: Floats) -> Floats:
+    """Join planes (h,), world z: ``join_heights`` (h,) where they are numbers, else chosen.
 
-    ``radii`` (h,) are the tubes', ``clearance`` is wanted between surfaces. ``obstacle_lows`` and
-    ``obstacle_highs`` (n, 3) are the items' boxes, above which a join plane should lie.
+    Levels lie as far apart as makes the peaks of curves between two attachments clear each other.
+    Hyperedges whose footprints overlap get different levels, unless more than `LEVELS` do.
     """
-    if len(starts) < 2:
-        return np.zeros(0)
-    lows = np.minimum.reduceat(attachments, starts[:-1], axis=0)
-    highs = np.maximum.reduceat(attachments, starts[:-1], axis=0)
-    spans = np.hypot(*(highs - lows)[:, :2].T)
-    margins = 2.0 * radii + clearance
-    step = float(margins.max())
-    origin = lows[:, :2].min(axis=0)
-    size = float(max((highs[:, :2].max(axis=0) - origin).max(), 1e-9)) / CELLS
-    first = _cells(lows[:, :2] - margins[:, None], origin, size)
-    last = _cells(highs[:, :2] + margins[:, None], origin, size)
-    tops = _tops(
-        _cells(obstacle_lows[:, :2], origin, size),
-        _cells(obstacle_highs[:, :2], origin, size),
-        np.ascontiguousarray(obstacle_highs[:, 2]),
+    chosen = np.isnan(join_heights)
+    if not chosen.any():
+        return join_heights.copy()
+    starts = placement.attachment_starts
+    at = placement.attachment_positions
+    lows = np.minimum.reduceat(at, starts[:-1], axis=0)
+    highs = np.maximum.reduceat(at, starts[:-1], axis=0)
+    radii = placement.radii
+    spacing = (2.0 * float(radii.max()) + clearance) / PEAK
+    footprints = _rectangles(lows, highs, radii + clearance / 2.0)
+    wished = _wished_heights(placement, clearance, lows, highs, footprints)
+    wishes = _levels(np.where(chosen, wished, join_heights) / spacing, chosen)
+    given = np.ceil(np.where(chosen, 0.0, join_heights) / spacing).astype(np.int64)
+    tops = np.where(chosen, wishes + LEVELS - 1, given)
+    spans = np.hypot(highs[:, 0] - lows[:, 0], highs[:, 1] - lows[:, 1])
+    order = np.lexsort((spans, wishes))
+    levels = assign(plant(footprints), wishes, tops, order[chosen[order]])
+    return np.where(chosen, levels * spacing, join_heights)
+
+
+def _levels(heights: Floats, chosen: NDArray[np.bool_]) -> Indices:
+    """The level at or above what is to be chosen, at or below what is given."""
+    return np.asarray(np.where(chosen, np.ceil(heights), np.floor(heights)).astype(np.int64))
+
+
+def _rectangles(lows: Floats, highs: Floats, margins: Floats) -> Floats:
+    """Footprints (n, 4) of boxes with margins (n,)."""
+    return np.stack(
+        [
+            lows[:, 0] - margins,
+            highs[:, 0] + margins,
+            lows[:, 1] - margins,
+            highs[:, 1] + margins,
+        ],
+        axis=1,
     )
-    floors = np.maximum(highs[:, 2], _highest(tops, first, last))
-    rises = np.maximum(np.minimum(RISE * spans, HIGHEST_RISE), LOWEST_RISE * radii)
-    ground = float(floors.min())
-    wanted = np.ceil((floors + rises - ground) / step - 1e-9).astype(np.int64)
-    order = np.argsort(spans, kind="stable")
-    levels = _levels(first, last, np.maximum(wanted, 0), order)
-    return np.asarray(ground + step * levels)
 
 
-def _cells(places: Floats, origin: Floats, size: float) -> Indices:
-    cells = np.floor((places - origin) / size)
-    return np.ascontiguousarray(np.clip(cells, 0, CELLS - 1).astype(np.int64))
+def _wished_heights(
+    placement: Placement, clearance: float, lows: Floats, highs: Floats, footprints: Floats
+) -> Floats:
+    """Heights (h,) at which arches look right, above their attachments and items under them."""
+    radii = placement.radii
+    spans = np.hypot(highs[:, 0] - lows[:, 0], highs[:, 1] - lows[:, 1])
+    joined = np.diff(placement.attachment_starts) > 2
+    arches = np.where(joined, ARCH_OF_JOINS, ARCH) * np.sqrt(spans * radii)
+    rises = np.maximum(arches, LEAST_RISE * radii + clearance)
+    tops = highs[:, 2]
+    if len(placement.centers) == 0:
+        return np.asarray(tops + rises)
+    item_lows, item_highs = _boxes(placement)
+    items = plant(_rectangles(item_lows, item_highs, np.zeros(len(item_lows))))
+    obstacles = highest_below(items, np.ascontiguousarray(item_highs[:, 2]), footprints)
+    # Where the curve peaks it clears what is under it; towers are not jumped but gone around.
+    bases = lows[:, 2]
+    needed = np.minimum((obstacles - bases + radii + clearance) / PEAK, rises + spans)
+    return np.asarray(np.maximum(tops + rises, bases + needed))
 
 
-@njit(cache=True)
-def _tops(first: Indices, last: Indices, heights: Floats) -> Floats:
-    """The highest item over each cell of the grid."""
-    tops = np.full((CELLS, CELLS), -np.inf)
-    for k in range(len(heights)):
-        for x in range(first[k, 0], last[k, 0] + 1):
-            for y in range(first[k, 1], last[k, 1] + 1):
-                tops[x, y] = max(tops[x, y], heights[k])
-    return tops
-
-
-@njit(cache=True)
-def _highest(tops: Floats, first: Indices, last: Indices) -> Floats:
-    highest = np.full(len(first), -np.inf)
-    for k in range(len(first)):
-        for x in range(first[k, 0], last[k, 0] + 1):
-            for y in range(first[k, 1], last[k, 1] + 1):
-                highest[k] = max(highest[k], tops[x, y])
-    return highest
-
-
-@njit(cache=True)
-def _levels(first: Indices, last: Indices, wanted: Indices, order: Indices) -> Indices:
-    """The lowest level from ``wanted`` on that is free in all cells, in the order given."""
-    words = LEVELS // 64
-    taken = np.zeros((CELLS, CELLS, words), np.uint64)
-    used = np.empty(words, np.uint64)
-    levels = np.empty(len(wanted), np.int64)
-    one = np.uint64(1)
-    for k in order:
-        used[:] = 0
-        for x in range(first[k, 0], last[k, 0] + 1):
-            for y in range(first[k, 1], last[k, 1] + 1):
-                for word in range(words):
-                    used[word] |= taken[x, y, word]
-        offset = max(wanted[k] - LEVELS // 2, 0)
-        level = wanted[k] - offset
-        while level < LEVELS - 1 and used[level >> 6] >> np.uint64(level & 63) & one:
-            level += 1
-        levels[k] = level + offset
-        for x in range(first[k, 0], last[k, 0] + 1):
-            for y in range(first[k, 1], last[k, 1] + 1):
-                taken[x, y, level >> 6] |= one << np.uint64(level & 63)
-    return levels
+def _boxes(placement: Placement) -> tuple[Floats, Floats]:
+    """Smallest and largest corners (n, 3) of the items, turned as they are."""
+    x, y, z, w = placement.rotations.T
+    turned = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    reach = np.einsum("ijn,nj->ni", np.abs(turned), placement.sizes) / 2.0
+    return placement.centers - reach, placement.centers + reach

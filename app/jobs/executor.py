@@ -21,7 +21,7 @@ from app.settings import Settings
 
 log = structlog.get_logger("tubeloom.jobs")
 
-START_SECONDS = 120.0
+START_SECONDS = 300.0
 """A worker that is not warm by then is stuck; compiling every kernel anew takes some 30."""
 
 GRACE_SECONDS = 1.0
@@ -60,6 +60,7 @@ class WorkerPool:
         self._idle: list[WorkerProcess] = []
         self._line: deque[asyncio.Future[WorkerProcess]] = deque()
         self._slots: list[asyncio.Task[None]] = []
+        self._first_started = asyncio.Event()
         self.warm = 0
         """How many workers are alive and have warmed up."""
         self.draft_problem: str | None = "No worker has started yet."
@@ -67,7 +68,7 @@ class WorkerPool:
 
     async def __aenter__(self) -> Self:
         self._slots = [
-            asyncio.create_task(self._keep_manned(), name=f"worker slot {number}")
+            asyncio.create_task(self._keep_manned(first=number == 0))
             for number in range(self._settings.workers)
         ]
         return self
@@ -164,13 +165,18 @@ class WorkerPool:
         else:
             self._idle.append(worker)
 
-    async def _keep_manned(self) -> None:
+    async def _keep_manned(self, *, first: bool) -> None:
         """Start a worker, wait until it dies, start the next; wait longer where starting fails."""
+        if not first:
+            # Where kernels must be compiled, one worker does it and the others load them.
+            await self._first_started.wait()
         pause = 0.0
         while True:
             worker = await WorkerProcess.start(self._settings)
             try:
-                if await self._warmed_up(worker):
+                warmed_up = await self._warmed_up(worker)
+                self._first_started.set()
+                if warmed_up:
                     pause = 0.0
                     self.warm += 1
                     self._give(worker)

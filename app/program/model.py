@@ -115,7 +115,7 @@ class View(Part):
 
     projection: Literal["perspective", "orthographic"] = "perspective"
     from_: Vector = Field(
-        (-0.15, -1.0, 1.0), alias="from", description="Direction from the scene to the camera."
+        (0.2, -1.0, 1.0), alias="from", description="Direction from the scene to the camera."
     )
     field_of_view: float = Field(
         30.0, ge=1, le=120, allow_inf_nan=False, description="Vertical, in degrees."

@@ -26,12 +26,13 @@ def sides_of(radii: Floats, tolerance: float) -> Indices:
         raise ValueError(f"A tolerance must be positive, not {tolerance!r}.")
     half_angles = np.arccos(np.maximum(1.0 - tolerance / np.maximum(radii, tolerance), 0.0))
     wanted = np.pi / np.maximum(half_angles, np.pi / MOST_SIDES)
-    return np.maximum(2 * np.ceil(0.5 * wanted - 1e-9), FEWEST_SIDES).astype(np.int64)
+    sides = np.maximum(2 * np.ceil(0.5 * wanted - 1e-9), FEWEST_SIDES)
+    return np.asarray(sides, dtype=np.int64)
 
 
 def tolerances_of(radii: Floats, tolerance: float) -> Floats:
     """What ``tolerance`` comes to for each of h radii, (h,), with `MOST_SIDES` as the finest."""
-    return np.maximum(tolerance, radii * (1.0 - np.cos(np.pi / MOST_SIDES)))
+    return np.asarray(np.maximum(tolerance, radii * (1.0 - np.cos(np.pi / MOST_SIDES))))
 
 
 def cap_rings(sides: Indices) -> Indices:

@@ -87,11 +87,14 @@ def _fill_ends(
         for end in range(2):
             _own_tangent(control_points, s, end, tiny[s], axes)
             senses[s, end] = 1.0
-            positions[s, end] = control_points[s, 3 * end]
             free[s, end] = segment_ends[s, end] < attachments
-            if not free[s, end]:
+            if free[s, end]:
+                for axis in range(3):
+                    positions[s, end, axis] = control_points[s, 3 * end, axis]
+            else:
                 join = first_join + segment_ends[s, end] - attachments
-                positions[s, end] = join_positions[join]
+                for axis in range(3):
+                    positions[s, end, axis] = join_positions[join, axis]
                 senses[s, end] = _take_axis(join_tangents, join, axes, s, end)
 
 

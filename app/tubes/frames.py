@@ -30,7 +30,7 @@ def basis(x: float, y: float, z: float) -> tuple[float, float, float, float, flo
 
 @njit(cache=True, error_model="numpy")
 def carry(track: Floats, count: int) -> None:
-    """Carry a direction along the first ``count`` places of a `app.tubes.track`, without turning it.
+    """Carry a direction along a track's first ``count`` places, without turning it.
 
     Fills the normals from the tangents alone, and rows 12 and 13 with where in that frame the
     direction comes to lie that is at ``track[12:, 0]`` at the first place. Double reflection: Wang,
@@ -78,7 +78,7 @@ def carry(track: Floats, count: int) -> None:
 
 @njit(cache=True, error_model="numpy")
 def turn(track: Floats, count: int, twist: float) -> None:
-    """Turn the frames to the directions that were carried, and on by ``twist`` at each step."""
+    """Turn a track's frames to the carried directions, and on by ``twist`` at each step."""
     step_c, step_s = math.cos(twist), math.sin(twist)
     c, s = 1.0, 0.0
     for i in range(count):

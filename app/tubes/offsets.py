@@ -1,13 +1,14 @@
 """Where a patch pair's control points go: aside of the curve, and up from there.
 
-Each of a curve's four control points has an *offset*, square to the curve there, and an *up*, square
-to both. Both rules give them for s segments, (s, 4, 3) each, the length of the radius.
+Each of a curve's four control points has an *offset*, square to the curve there, and an *up*,
+square to both. Both rules give them for s segments, (s, 4, 3) each, the length of the radius.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from app.arrays import Floats
 from app.tubes.ends import Ends
@@ -33,20 +34,20 @@ def paper_offsets(control_points: Floats, radii: Floats, ends: Ends) -> tuple[Fl
     rows = np.empty_like(control_points)
     level = _level(tangents[:, 0])
     first = np.where(
-        bent[:, 1, None],
+        bent[:, 1][:, None],
         _swing(halfway[:, 1], tangents[:, 1], tangents[:, 0]),
         _swing(
             _swing(halfway[:, 2], tangents[:, 2], tangents[:, 1]), tangents[:, 1], tangents[:, 0]
         ),
     )
-    first = np.where(bent[:, 1:3].any(axis=1)[:, None], first, level)
+    first = np.where((bent[:, 1] | bent[:, 2])[:, None], first, level)
     first = _square(first, tangents[:, 0], level)
     rows[:, 0] = np.where(_points_up(np.cross(first, tangents[:, 0]))[:, None], first, -first)
     for row in range(1, 4):
         followed = _swing(rows[:, row - 1], tangents[:, row - 1], tangents[:, row])
-        same = np.einsum("sx,sx->s", followed, halfway[:, row]) >= 0.0
+        same = _dot(followed, halfway[:, row]) >= 0.0
         wanted = np.where(same[:, None], halfway[:, row], -halfway[:, row])
-        rows[:, row] = np.where(bent[:, row, None], wanted, followed)
+        rows[:, row] = np.where(bent[:, row][:, None], wanted, followed)
         rows[:, row] = _square(rows[:, row], tangents[:, row], _level(tangents[:, row]))
     ups = np.cross(rows, tangents)
     return radii[:, None, None] * rows, radii[:, None, None] * ups
@@ -104,7 +105,7 @@ def _frames_at(
     return normals, binormals
 
 
-def _bisectors(control_points: Floats, ends: Ends) -> tuple[Floats, Floats, Floats]:
+def _bisectors(control_points: Floats, ends: Ends) -> tuple[Floats, Floats, NDArray[np.bool_]]:
     """Tangents and directions halfway between the neighbours, (s, 4, 3), and where these exist.
 
     A tangent inside halves the turn of the control polygon, so halfway is square to it.
@@ -117,7 +118,7 @@ def _bisectors(control_points: Floats, ends: Ends) -> tuple[Floats, Floats, Floa
     legs = np.where(short, instead, legs / np.sqrt(np.where(squares > 0, squares, 1.0))[:, :, None])
     halfway = np.zeros_like(control_points)
     halfway[:, 1:3] = legs[:, 1:] - legs[:, :-1]
-    bent = np.einsum("srx,srx->sr", halfway, halfway) > _STRAIGHT**2
+    bent = np.asarray(np.einsum("srx,srx->sr", halfway, halfway) > _STRAIGHT**2)
     halfway = _unit(halfway, np.zeros_like(halfway))
     tangents = np.empty_like(control_points)
     tangents[:, [0, 3]] = ends.tangents
@@ -134,25 +135,29 @@ def _unit(vectors: Floats, instead: Floats) -> Floats:
 
 
 def _level(directions: Floats) -> Floats:
-    """Unit vectors square to ``directions`` (…, 3) and to the z axis; x where these are one line."""
+    """Unit vectors square to ``directions`` (…, 3) and to the z axis; x where these are one."""
     x, y = directions[..., 1], -directions[..., 0]
     return _unit(np.stack([x, y, np.zeros_like(x)], axis=-1), np.array([1.0, 0.0, 0.0]))
 
 
 def _swing(vectors: Floats, before: Floats, after: Floats) -> Floats:
-    """Turn ``vectors`` square to ``before`` the way that turns ``before`` most shortly to ``after``."""
+    """Turn ``vectors``, square to ``before``, as ``before`` turns most shortly to ``after``."""
     middle = _unit(before + after, np.zeros_like(before))
-    return vectors - 2.0 * np.einsum("sx,sx->s", vectors, middle)[:, None] * middle
+    return vectors - 2.0 * _dot(vectors, middle)[:, None] * middle
 
 
 def _square(vectors: Floats, tangents: Floats, instead: Floats) -> Floats:
     """``vectors`` without what rounding left along ``tangents``, as unit vectors."""
-    along = np.einsum("sx,sx->s", vectors, tangents)[:, None]
+    along = _dot(vectors, tangents)[:, None]
     return _unit(vectors - along * tangents, instead)
 
 
-def _points_up(vectors: Floats) -> Floats:
+def _dot(a: Floats, b: Floats) -> Floats:
+    return np.asarray(np.einsum("sx,sx->s", a, b))
+
+
+def _points_up(vectors: Floats) -> NDArray[np.bool_]:
     """Whether ``vectors`` point up; of level ones, whether they point to +y, or to +x."""
     z = np.where(np.abs(vectors[:, 2]) > _STRAIGHT, vectors[:, 2], 0.0)
     y = np.where(np.abs(vectors[:, 1]) > _STRAIGHT, vectors[:, 1], 0.0)
-    return (z > 0) | ((z == 0) & ((y > 0) | ((y == 0) & (vectors[:, 0] >= 0))))
+    return np.asarray((z > 0) | ((z == 0) & ((y > 0) | ((y == 0) & (vectors[:, 0] >= 0)))))

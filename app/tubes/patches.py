@@ -2,10 +2,10 @@
 
 What a reader of the picture sees of the two rules for their control points: by the ``paper``'s rule
 a tube keeps its thickness at its ends and where it is straight, but is pinched in bends, by a
-quarter at the narrowest place of an ordinary curve, and more in tight ones; flat on the inside, as
-if pressed. By the ``fitted`` rule it is nearly as even as a swept tube: the eye does not see the few
-percent. Neither is quite round: half a circle as one cubic is up to 1.8 percent too wide. At joins
-the rims of the paper's patches differ by as much; those of the fitted ones are the same.
+quarter at the narrowest place of an ordinary curve, and more in tight ones. By the ``fitted`` rule
+it is nearly as even as a swept tube; only bends as tight as the tube is thick show that one patch
+is too stiff for them. Neither is quite round: half a circle as one cubic is up to 1.8 percent too
+wide. At joins the rims of the paper's patches differ by as much; the fitted ones share theirs.
 """
 
 from __future__ import annotations

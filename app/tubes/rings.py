@@ -186,7 +186,7 @@ def _look_closer(
         way = (0.5 / (_INTERVALS * _FINER)) * (speed + fast)
         finer[i + 1] = finer[i] + math.sqrt(share * turn * (way + radius * turn))
         x, y, z, speed = ex, ey, ez, fast
-    return finer[_FINER]
+    return float(finer[_FINER])
 
 
 @njit(cache=True, error_model="numpy")
@@ -218,7 +218,10 @@ def place_rings(
     finer: Floats,
     parameters: Floats,
 ) -> None:
-    """Fill ``parameters`` with where the ``count`` rings of segment ``s`` stand, 0 to 1; overwrites ``finer`` (9,)."""
+    """Fill ``parameters`` with where the ``count`` rings of segment ``s`` stand, from 0 to 1.
+
+    Overwrites ``finer`` (9,).
+    """
     share = loads[s, _INTERVALS] / (count - 1)
     parameters[0] = 0.0
     i, load = 1, share

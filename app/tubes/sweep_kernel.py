@@ -123,15 +123,15 @@ def _write_ring(
     sides, half, first = np.uint64(n), np.uint64(n // 2), np.uint64(shift)
     a = np.uint64(3 * at)
     b = a + three * half
+    x, y, z = x + r * wx, y + r * wy, z + r * wz
     for k in range(half):
         c, s = circles[sides, zero, first + k], circles[sides, one, first + k]
         nx, ny, nz = ux * c + vx * s, uy * c + vy * s, uz * c + vz * s
-        mx, my, mz = wx - nx, wy - ny, wz - nz
-        nx, ny, nz = wx + nx, wy + ny, wz + nz
-        normals[a], normals[a + one], normals[a + two] = nx, ny, nz
-        normals[b], normals[b + one], normals[b + two] = mx, my, mz
-        vertices[a], vertices[a + one], vertices[a + two] = x + r * nx, y + r * ny, z + r * nz
-        vertices[b], vertices[b + one], vertices[b + two] = x + r * mx, y + r * my, z + r * mz
+        px, py, pz = r * nx, r * ny, r * nz
+        normals[a], normals[a + one], normals[a + two] = wx + nx, wy + ny, wz + nz
+        normals[b], normals[b + one], normals[b + two] = wx - nx, wy - ny, wz - nz
+        vertices[a], vertices[a + one], vertices[a + two] = x + px, y + py, z + pz
+        vertices[b], vertices[b + one], vertices[b + two] = x - px, y - py, z - pz
         a += three
         b += three
 

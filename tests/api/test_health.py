@@ -1,8 +1,11 @@
-from pathlib import Path
+import asyncio
 
 import httpx
+import pytest
 
-from tests.service import running_service
+from app.jobs.executor import WorkerPool
+from app.main import create_app
+from app.settings import Settings
 
 
 def test_the_service_lives(client: httpx.Client) -> None:
@@ -19,15 +22,27 @@ def test_the_service_is_ready_and_can_draw(client: httpx.Client) -> None:
     }
 
 
-def test_without_a_way_to_draw_all_but_pictures_works(
-    tmp_path: Path, no_gl: dict[str, str]
+@pytest.mark.parametrize(
+    ("warm", "problem", "status", "word"),
+    [
+        (0, "No worker has started yet.", 503, "starting"),
+        (1, None, 200, "ready"),
+        (1, "Install libosmesa6.", 200, "degraded"),
+    ],
+)
+def test_readiness_says_what_is_missing(
+    warm: int, problem: str | None, status: int, word: str
 ) -> None:
-    with running_service(tmp_path, workers=1, **no_gl) as service, service.client() as client:
-        readiness = client.get("/readyz")
-        assert (readiness.status_code, readiness.json()["status"]) == (200, "degraded")
-        assert "install" in readiness.json()["draft"]["problem"]
-        document = {"items": [{"id": "a"}]}
-        assert client.post("/v1/render", json=document).status_code == 200
-        refused = client.post("/v1/render?format=png", json=document)
-        assert refused.status_code == 503
-        assert refused.json()["type"] == "urn:tubeloom:problem:renderer-unavailable"
+    app = create_app(Settings(workers=3))
+    app.state.pool = WorkerPool(Settings(workers=3))
+    app.state.pool.warm, app.state.pool.draft_problem = warm, problem
+
+    async def ask() -> httpx.Response:
+        transport = httpx.ASGITransport(app)
+        async with httpx.AsyncClient(transport=transport, base_url="http://here") as client:
+            return await client.get("/readyz")
+
+    response = asyncio.run(ask())
+    assert (response.status_code, response.json()["status"]) == (status, word)
+    assert response.json()["workers"] == {"wanted": 3, "warm": warm}
+    assert response.json()["draft"] == {"available": problem is None, "problem": problem}

@@ -20,7 +20,7 @@ def in_pieces(size: int) -> Iterator[bytes]:
         yield b" " * MEGABYTE
 
 
-HOSTILE = {
+HOSTILE: dict[str, tuple[bytes | str, int]] = {
     "a body of 100 MB": (b" " * (100 * MEGABYTE), 413),
     "10,000 brackets": (nested(10_000), 400),
     "a coordinate of 1e308": (b'{"items": [{"id": "a", "position": [1e308, 0, 0]}]}', 400),

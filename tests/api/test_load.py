@@ -1,6 +1,7 @@
 """What happens while workers are busy, die, or are kept waiting for."""
 
 import time
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from tests.service import (
     SMALL,
     Service,
     cpu_seconds,
+    gone,
     large_program,
     running_service,
     until,
@@ -60,12 +62,12 @@ def test_who_leaves_has_the_long_work_stopped(service: Service, client: httpx.Cl
             "/v1/render", content=very_large, timeout=httpx.Timeout(PATIENCE_SECONDS, read=1)
         )
     victim = until(lambda: service.busy_worker(spent))
-    until(lambda: not victim.is_running())
+    until(lambda: gone(victim))
     until(lambda: client.get("/readyz").json()["workers"]["warm"] == 2)
 
 
 @pytest.fixture(scope="module")
-def hurried(tmp_path_factory: pytest.TempPathFactory) -> Service:
+def hurried(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     """A service of one worker that has little time and no line."""
     folder = tmp_path_factory.mktemp("hurried")
     with running_service(folder, workers=1, max_waiting=0, deadline_seconds=0.3) as service:
@@ -95,4 +97,4 @@ def test_workers_do_not_outlive_a_service_that_is_killed(tmp_path: Path) -> None
         workers = service.workers()
         assert len(workers) == 1
         service.process.kill()
-        until(lambda: not workers[0].is_running(), seconds=10)
+        until(lambda: gone(workers[0]), seconds=10)

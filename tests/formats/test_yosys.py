@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from app.errors import DocumentError, InvalidDocument
+from app.errors import DocumentError
 from app.formats.yosys import read
 from app.program.model import Item, Program
 from app.program.shapes import Box
@@ -103,15 +103,25 @@ def test_a_clock_net_is_of_its_own_kind() -> None:
             "/modules/m/ports/a/direction",
         ),
         (
+            {"modules": {"m": {"cells": {"c": {"type": "t", "connections": {"": [2]}}}}}},
+            "/modules/m/cells/c/connections/",
+        ),
+        (
             {"modules": {"m": {"cells": {"a/b": {"type": "t", "connections": {"A": ["2"]}}}}}},
             "/modules/m/cells/a~1b/connections/A/0",
         ),
     ],
 )
 def test_faults_point_into_the_netlist(document: Any, place: str) -> None:
-    with pytest.raises(InvalidDocument) as raised:
+    with pytest.raises(DocumentError) as raised:
         read(json.dumps(document).encode(), Settings())
     assert {fault.pointer for fault in raised.value.faults} == {place}
+
+
+def test_a_net_may_be_numbered_by_a_float_that_is_whole() -> None:
+    cell = {"type": "t", "connections": {"A": [2.0], "B": [2]}}
+    program = read(json.dumps({"modules": {"m": {"cells": {"c": cell}}}}).encode(), Settings())
+    assert [hyperedge.id for hyperedge in program.hyperedges] == ["net:2"]
 
 
 def test_a_netlist_that_is_too_large_is_refused() -> None:

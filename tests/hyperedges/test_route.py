@@ -1,50 +1,67 @@
-from dataclasses import replace
+from __future__ import annotations
 
 import numpy as np
 import pytest
 
 from app.hyperedges.route import route
-from app.notations.loader import load_notation
-from app.placement.place import place
-from app.placement.placement import Placement
-from app.program.model import Program
+from tests.hyperedges.scenes import placement
+
+SCENE = placement(np.random.default_rng(0).uniform(0, 9, (14, 3)) * [1, 1, 0.1], [0, 3, 5, 10, 14])
 
 
-@pytest.fixture
-def placement() -> Placement:
-    program = Program.model_validate(
-        {
-            "items": [{"id": name} for name in "abcdef"],
-            "hyperedges": [
-                {"id": "x", "attachments": [{"item": name} for name in "abcd"]},
-                {"id": "y", "attachments": [{"item": name} for name in "ef"]},
-            ],
-        }
-    )
-    return place(program, load_notation("plain"))
+def test_a_routing_says_where_each_hyperedge_is() -> None:
+    routing = route(SCENE)
+    assert routing.segment_starts.tolist() == [0, 3, 4, 11, 16]
+    assert routing.join_starts.tolist() == [0, 1, 1, 4, 6]
+    assert routing.control_points.shape == (16, 4, 3)
+    assert routing.segment_ends.shape == (16, 2)
+    assert routing.join_positions.shape == routing.join_tangents.shape == (6, 3)
+    np.testing.assert_array_equal(routing.radii, SCENE.radii)
+    heights = np.repeat(routing.join_planes, np.diff(routing.join_starts))
+    np.testing.assert_array_equal(routing.join_positions[:, 2], heights)
 
 
-def test_segments_and_joins_of_each_hyperedge_lie_together(placement: Placement) -> None:
-    routing = route(placement)
-    assert routing.segment_starts.tolist() == [0, 5, 6]
-    assert routing.join_starts.tolist() == [0, 2, 2]
-    assert routing.control_points.shape == (6, 4, 3)
+def test_segments_begin_and_end_where_they_say() -> None:
+    routing = route(SCENE)
+    for k in range(4):
+        ends = slice(SCENE.attachment_starts[k], SCENE.attachment_starts[k + 1])
+        joins = slice(routing.join_starts[k], routing.join_starts[k + 1])
+        segments = slice(routing.segment_starts[k], routing.segment_starts[k + 1])
+        places = np.vstack([SCENE.attachment_positions[ends], routing.join_positions[joins]])
+        np.testing.assert_array_equal(
+            routing.control_points[segments][:, [0, 3]], places[routing.segment_ends[segments]]
+        )
 
 
-def test_a_join_height_of_the_document_is_kept(placement: Placement) -> None:
-    routing = route(placement, join_heights=np.array([7.0, np.nan]))
-    assert routing.join_planes[0] == 7.0
-    assert (routing.join_positions[:, 2] == 7.0).all()
-    assert routing.join_planes[1] == route(placement).join_planes[1]
+def test_wishes_for_join_heights_are_met() -> None:
+    routing = route(SCENE, join_heights=np.array([7.0, np.nan, 2.5, np.nan]))
+    assert routing.join_planes[[0, 2]].tolist() == [7.0, 2.5]
+    assert np.isfinite(routing.join_planes).all()
 
 
-def test_best_fidelity_leaves_items_squarely_and_paper_does_not(placement: Placement) -> None:
-    best = route(placement).control_points[0]
-    paper = route(placement, fidelity="paper").control_points[0]
-    assert (best[1, :2] == best[0, :2]).all()
-    assert (paper[1, :2] != paper[0, :2]).any()
+def test_options_reach_the_curves() -> None:
+    plain = route(SCENE)
+    for other in (
+        route(SCENE, curves="symbolic"),
+        route(SCENE, fidelity="paper"),
+        route(SCENE, clearance=2.0),
+    ):
+        assert not np.array_equal(plain.control_points, other.control_points)
+    tilted = placement(np.array([[0, 0, 0], [1, 0, 0], [0.5, 0, 9], [7, 0, 0]]), [0, 4])
+    in_space, in_plane = route(tilted), route(tilted, closest="plane")
+    assert in_space.segment_ends.tolist() != in_plane.segment_ends.tolist()
 
 
-def test_the_same_placement_gives_the_same_bytes(placement: Placement) -> None:
-    again = replace(placement)
-    assert route(placement).control_points.tobytes() == route(again).control_points.tobytes()
+def test_the_same_placement_gives_the_same_bytes() -> None:
+    assert route(SCENE).control_points.tobytes() == route(SCENE).control_points.tobytes()
+
+
+def test_a_program_without_hyperedges_has_no_curves() -> None:
+    routing = route(placement(np.zeros((0, 3)), [0]))
+    assert len(routing.control_points) == len(routing.join_planes) == 0
+    assert routing.segment_starts.tolist() == routing.join_starts.tolist() == [0]
+
+
+def test_one_attachment_is_refused() -> None:
+    with pytest.raises(ValueError, match="two or more"):
+        route(placement(np.zeros((1, 3)), [0, 1]))

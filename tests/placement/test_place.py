@@ -174,7 +174,7 @@ def test_without_labels_nothing_is_written_and_no_room_is_taken() -> None:
 
 def test_hyperedges_end_on_top_of_items() -> None:
     made = placed({"items": [{"id": "a"}, {"id": "b"}], **attach("b", "a")})
-    top = made.centers + [0, 0, 1] * made.sizes / 2
+    top = made.centers + np.array([0.0, 0.0, 0.5]) * made.sizes
     np.testing.assert_allclose(made.attachment_positions, top[[1, 0]])
     assert made.attachment_items.tolist() == [1, 0]
     assert made.attachment_starts.tolist() == [0, 2]

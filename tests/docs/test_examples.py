@@ -1,0 +1,87 @@
+"""What README and docs show is run as it stands there."""
+
+import json
+import os
+import re
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from app.program.reading import read_program
+from app.settings import Settings
+from tests.service import Service, running_service
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+pytestmark = pytest.mark.xdist_group("docs")
+
+
+def blocks(language: str) -> list[tuple[str, str]]:
+    """The fenced blocks of one language, with the names of their pages."""
+    fence = re.compile(rf"^```{language}\n(.*?)^```", re.MULTILINE | re.DOTALL)
+    return [(page.name, block) for page in PAGES for block in fence.findall(page.read_text())]
+
+
+COMMANDS = [
+    pytest.param(block, id=f"{name} {number}")
+    for number, (name, block) in enumerate(blocks("sh"))
+    if not block.startswith("make ")
+]
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service for the commands."""
+    with running_service(tmp_path_factory.mktemp("service")) as running:
+        yield running
+
+
+@pytest.mark.parametrize("commands", COMMANDS)
+def test_commands_do_what_they_say(commands: str, service: Service, tmp_path: Path) -> None:
+    for name in ("examples", ".venv"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    script = commands.replace("http://127.0.0.1:8000", service.url)
+    script = re.sub(r"\bcurl\b", "curl --silent --show-error --fail-with-body", script)
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", script],
+        cwd=tmp_path, capture_output=True, text=True, check=False, env=os.environ,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout + done.stderr
+    made = [path for path in tmp_path.iterdir() if not path.is_symlink()]
+    assert made
+    for path in made:
+        data = path.read_bytes()
+        signature = {".png": b"\x89PNG", ".glb": b"glTF", ".json": b"{"}[path.suffix]
+        assert data.startswith(signature)
+
+
+@pytest.mark.parametrize(("page", "block"), blocks("json"))
+def test_documents_in_the_docs_are_programs(page: str, block: str) -> None:
+    assert page
+    assert read_program(block.encode(), Settings()).items
+
+
+def test_every_setting_is_described_with_its_default() -> None:
+    page = (ROOT / "docs" / "settings.md").read_text()
+    for name, field in Settings.model_fields.items():
+        assert f"| `TUBELOOM_{name.upper()}` | {field.default} |" in page
+
+
+def test_pages_link_to_what_exists() -> None:
+    for page in PAGES:
+        for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def test_the_document_page_names_every_key() -> None:
+    block = json.loads(next(block for name, block in blocks("json") if name == "document.md"))
+    program = read_program(json.dumps(block).encode(), Settings())
+    for section in ("layout", "style", "view"):
+        keys = {
+            field.alias or name
+            for name, field in type(getattr(program, section)).model_fields.items()
+        }
+        assert set(block[section]) == keys
