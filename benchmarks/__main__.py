@@ -41,7 +41,8 @@ def tables(figures: dict[str, Any]) -> str:
     cpu = machine["cpu"]
     where = (machine["python_version"], platform.system(), platform.machine())
     lines = [
-        f"Python {where[0]}, {where[1]} {where[2]}, {cpu.get('brand_raw', 'unknown processor')}, {cpu.get('count', '?')} cores."
+        f"Python {' '.join(where)}; {cpu.get('brand_raw', 'unknown processor')}, "
+        f"{cpu.get('count', '?')} cores."
     ]
     groups: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for benchmark in figures["benchmarks"]:
