@@ -40,10 +40,8 @@ def tables(figures: dict[str, Any]) -> str:
     machine = figures["machine_info"]
     cpu = machine["cpu"]
     where = (machine["python_version"], platform.system(), platform.machine())
-    lines = [
-        f"Python {' '.join(where)}; {cpu.get('brand_raw', 'unknown processor')}, "
-        f"{cpu.get('count', '?')} cores."
-    ]
+    processor = f"{cpu.get('brand_raw', 'unknown processor')}, {cpu.get('count', '?')} cores"
+    lines = [f"Python {' '.join(where)}; {processor}."]
     groups: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for benchmark in figures["benchmarks"]:
         groups[benchmark["group"]].append(benchmark)

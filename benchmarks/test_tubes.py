@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Callable
-from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -69,7 +67,7 @@ def _tube_vertices(stacks: Stacks, counts: Indices) -> Indices:
     first = stacks.vertices[:-1] + stacks.poles[:, 0] + SIDES * stacks.cap_rings[:, 0]
     lengths = SIDES * counts
     within = np.arange(lengths.sum()) - np.repeat(np.cumsum(lengths) - lengths, lengths)
-    return np.repeat(first, lengths) + within
+    return np.asarray(np.repeat(first, lengths) + within)
 
 
 def vtk_filter(points: Floats, starts: Indices) -> Any:
@@ -79,12 +77,14 @@ def vtk_filter(points: Floats, starts: Indices) -> Any:
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
     from vtkmodules.vtkFiltersCore import vtkTubeFilter
 
+    # VTK's own typing stops short of these two.
+    to_vtk: Callable[..., Any] = numpy_to_vtk
+    to_ids: Callable[..., Any] = numpy_to_vtkIdTypeArray
     places = vtkPoints()
-    places.SetData(numpy_to_vtk(points.astype(np.float32), deep=True))
+    places.SetData(to_vtk(points.astype(np.float32), deep=True))
     lines = vtkCellArray()
     lines.SetData(
-        numpy_to_vtkIdTypeArray(starts, deep=True),
-        numpy_to_vtkIdTypeArray(np.arange(len(points), dtype=np.int64), deep=True),
+        to_ids(starts, deep=True), to_ids(np.arange(len(points), dtype=np.int64), deep=True)
     )
     polylines = vtkPolyData()
     polylines.SetPoints(places)
@@ -97,35 +97,37 @@ def vtk_filter(points: Floats, starts: Indices) -> Any:
     return tubes
 
 
-def seconds(work: Callable[[], object], rounds: int) -> float:
-    """The best time of some."""
-    best = np.inf
-    for _ in range(rounds):
-        gc.collect()
-        start = perf_counter()
-        work()
-        best = min(best, perf_counter() - start)
-    return float(best)
+@pytest.fixture(scope="module", params=[(999, 30), (99_999, 3)], ids=lambda param: str(param[0]))
+def routing_and_rounds(request: pytest.FixtureRequest) -> tuple[Routing, int]:
+    """Hyperedges of so many segments together, and how often to sweep them."""
+    segments, rounds = request.param
+    return routing_of(segments // 3), rounds
 
 
-@pytest.mark.parametrize(("segments", "rounds"), [(999, 30), (99_999, 3)])
-def test_sweeping_tubes_beside_vtk(segments: int, rounds: int) -> None:
-    """Ours is faster; by how much for each vertex is printed."""
-    routing = routing_of(segments // 3)
-    vertices = len(sweep(routing, TOLERANCE).vertices)
-    ours = seconds(lambda: sweep(routing, TOLERANCE), rounds) / vertices
+def _note(benchmark: Any, routing: Routing, vertices: int) -> None:
+    segments = len(routing.control_points)
+    benchmark.group = f"Tubes of {segments:,} segments, {SIDES} sides"
+    nanoseconds = 1e9 * benchmark.stats.stats.median / vertices
+    benchmark.extra_info["for each vertex"] = f"{nanoseconds:.1f} ns"
+    benchmark.extra_info["rings a tube"] = f"{vertices / segments / SIDES:.1f}"
 
+
+def test_sweep_tubeloom(benchmark: Any, routing_and_rounds: tuple[Routing, int]) -> None:
+    """Ours: positions, normals, indices, rounded ends."""
+    routing, rounds = routing_and_rounds
+    made = benchmark.pedantic(sweep, (routing, TOLERANCE), rounds=rounds, warmup_rounds=1)
+    _note(benchmark, routing, len(made.vertices))
+
+
+def test_vtk_tube_filter(benchmark: Any, routing_and_rounds: tuple[Routing, int]) -> None:
+    """What a user would pick: the same polylines, as many sides, normals."""
+    routing, rounds = routing_and_rounds
     tubes = vtk_filter(*axes_of(routing))
 
     def update() -> None:
         tubes.Modified()
         tubes.Update()
 
-    theirs = seconds(update, (rounds + 2) // 3) / tubes.GetOutput().GetNumberOfPoints()
+    benchmark.pedantic(update, rounds=(rounds + 2) // 3, warmup_rounds=1)
     assert tubes.GetOutput().GetPointData().GetNormals() is not None
-    print(
-        f"\n{segments} tubes of {vertices / segments / SIDES:.1f} x {SIDES} vertices with normals "
-        f"and indices: ours {1e9 * ours:.1f} ns a vertex, vtkTubeFilter {1e9 * theirs:.0f} ns, "
-        f"{theirs / ours:.1f} times as fast"
-    )
-    assert theirs > ours
+    _note(benchmark, routing, tubes.GetOutput().GetNumberOfPoints())

@@ -6,6 +6,7 @@ crashes takes this process with it and nothing else.
 
 from __future__ import annotations
 
+import gc
 import itertools
 import os
 import select
@@ -74,6 +75,10 @@ def _prepare(settings: Settings) -> Ready | Crash:
         return reply.outcome
     if isinstance(reply.outcome, TubeloomError):
         raise reply.outcome
+    # Else a full collection in the midst of somebody's work would look, for 80 ms, at all that
+    # the imports have left.
+    gc.collect()
+    gc.freeze()
     return Ready(draft_problem())
 
 
