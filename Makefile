@@ -27,6 +27,8 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	tools/system-packages.sh
 	$(PIP) install --require-hashes -r requirements.lock
 	$(PIP) install --no-deps --editable .
+	@echo "Compiling kernels, once …"
+	$(BIN)/tubeloom render examples/hello.json -o $(VENV)/hello.glb
 	@touch $@
 
 $(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json $(VENV)/runtime.done

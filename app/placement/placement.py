@@ -8,7 +8,7 @@ from app.arrays import Floats, Indices
 from app.solids.solid import Solid, Text
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class LabelPlace:
     """A label's solid letters, and where they are in their item's own axes."""
 

@@ -33,7 +33,7 @@ def item_nodes(
     which numbers them.
     """
     bodies: dict[Solid, Mesh] = {}
-    labels: dict[tuple[Any, ...], Mesh] = {}
+    labels: dict[LabelPlace, Mesh] = {}
     nodes: list[Node] = []
     centers, rotations = placement.centers.tolist(), placement.rotations.tolist()
     for number, item in enumerate(program.items):
@@ -44,10 +44,9 @@ def item_nodes(
             body = bodies[solid] = mesh_of(solid)
         parts = [(body, make_material(item.material or style.material, item.color or style.color))]
         if place is not None and program.style.labels:
-            key = (place.text, place.position, place.rotation)
-            label = labels.get(key)
+            label = labels.get(place)
             if label is None:
-                label = labels[key] = _label_mesh(place)
+                label = labels[place] = _label_mesh(place)
             parts.append((label, make_material("matte", _ink(item, style))))
         nodes.append(
             Node(
@@ -66,8 +65,9 @@ def item_nodes(
     return nodes
 
 
+@lru_cache(maxsize=512)
 def _label_mesh(place: LabelPlace) -> Mesh:
-    """The letters in their item's axes."""
+    """The letters in their item's axes; kept, since an edit leaves most labels where they are."""
     letters = mesh_of(place.text)
     turn = _turn(place.rotation)
     vertices = letters.vertices @ turn
