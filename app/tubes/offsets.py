@@ -96,12 +96,12 @@ def _frames_at(
         hodograph(control_points, s, slopes)
         follow(control_points, positions, tangents, s, tiny[s], slopes, parameters, count, track)
         # A patch pair that is turned by half a turn is itself again: two sides.
-        if align(axes, senses, s, 2, count, track) % 2:
-            track[6:12, count - 1] *= -1.0
+        turned = align(axes, senses, s, 2, count, track) % 2
         for i in range(count):
+            sign = -1.0 if turned and i == count - 1 else 1.0
             for axis in range(3):
-                normals[s, i, axis] = track[6 + axis, i]
-                binormals[s, i, axis] = track[9 + axis, i]
+                normals[s, i, axis] = sign * track[6 + axis, i]
+                binormals[s, i, axis] = sign * track[9 + axis, i]
     return normals, binormals
 
 

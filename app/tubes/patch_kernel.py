@@ -67,7 +67,10 @@ def fill_patches(
 
     ``radii`` (s,) are the segments', ``faces`` is flat.
     """
-    parameters, columns = np.empty(counts.max() if len(counts) else 0), np.empty((2, 2, 4, 3))
+    most = 2
+    for s in range(len(pairs)):
+        most = max(most, counts[s])
+    parameters, columns = np.empty(most), np.empty((2, 2, 4, 3))
     slopes, finer = np.empty(9), np.empty(9)
     for s in range(len(pairs)):
         n, count = sides[s], counts[s]

@@ -240,7 +240,9 @@ def place_rings(
             parameters[i] = (interval + inside) * (1.0 / _INTERVALS)
             i += 1
             load = i * share
-    parameters[i:count] = 1.0
+    while i < count:
+        parameters[i] = 1.0
+        i += 1
 
 
 @njit(cache=True, error_model="numpy")

@@ -56,29 +56,28 @@ def fill_swept(
         hodograph(control_points, s, slopes)
         place_rings(loads, sharp, slopes, tangents, s, tiny[s], radius, count, finer, parameters)
         follow(control_points, positions, tangents, s, tiny[s], slopes, parameters, count, track)
-        skipped = align(axes, senses, s, n, count, track)
-        shift = (n - skipped) % n
-
-        at = vertex_starts[s]
-        if poles[s, 0]:
-            _write_pole(vertices, normals, at, radius, track, 0, -1.0)
-            at += 1
-        for j in range(cap_rings[s, 0]):
-            across, along = latitudes[n, 0, j], -latitudes[n, 1, j]
-            _write_ring(vertices, normals, at, n, 0, circles, radius, track, 0, across, along)
-            at += n
-        for i in range(count - 1):
-            _write_ring(vertices, normals, at, n, 0, circles, radius, track, i, 1.0, 0.0)
-            at += n
+        shift = (n - align(axes, senses, s, n, count, track)) % n
         end = count - 1
-        _write_ring(vertices, normals, at, n, shift, circles, radius, track, end, 1.0, 0.0)
-        at += n
-        for j in range(cap_rings[s, 1] - 1, -1, -1):
-            across, along = latitudes[n, 0, j], latitudes[n, 1, j]
-            _write_ring(vertices, normals, at, n, shift, circles, radius, track, end, across, along)
+        at = vertex_starts[s] + poles[s, 0]
+        for ring in range(rings[s]):
+            place = ring - cap_rings[s, 0]
+            across, along = 1.0, 0.0
+            if place < 0:
+                across, along = latitudes[n, 0, ring], -latitudes[n, 1, ring]
+            elif place > end:
+                from_pole = rings[s] - 1 - ring
+                across, along = latitudes[n, 0, from_pole], latitudes[n, 1, from_pole]
+            place = min(max(place, 0), end)
+            turned = shift if place == end else 0
+            _write_ring(
+                vertices, normals, at, n, turned, circles, radius, track, place, across, along
+            )
             at += n
-        if poles[s, 1]:
-            _write_pole(vertices, normals, at, radius, track, end, 1.0)
+        for which in range(2):
+            if poles[s, which]:
+                at = vertex_starts[s + which] - which
+                along = 2.0 * which - 1.0
+                _write_pole(vertices, normals, at, radius, track, which * end, along)
         write_faces(
             strips,
             faces,
