@@ -38,6 +38,8 @@ def many(count: int, width: float) -> tuple[Floats, Indices]:
 @pytest.mark.parametrize("fidelity", ["paper", "best"])
 def test_many_hyperedges(benchmark: Any, fidelity: Any) -> None:
     """100,000 hyperedges of 3 to 5 attachments."""
+    benchmark.group = "CURVES, hyperedges of 3 to 5 attachments"
+    benchmark.extra_info["of"] = f"100,000, {fidelity}"
     points, starts = many(100_000, 1000.0)
     directions, planes = upwards(len(points)), np.full(len(starts) - 1, 3.0)
     benchmark.pedantic(
@@ -51,6 +53,8 @@ def test_many_hyperedges(benchmark: Any, fidelity: Any) -> None:
 
 def test_many_hyperedges_in_plain_python(benchmark: Any) -> None:
     """1,000 of them, as the paper has it."""
+    benchmark.group = "CURVES, hyperedges of 3 to 5 attachments"
+    benchmark.extra_info["of"] = "1,000"
     points, starts = many(1_000, 100.0)
 
     def lay_out_plainly() -> None:
@@ -63,6 +67,8 @@ def test_many_hyperedges_in_plain_python(benchmark: Any) -> None:
 @pytest.mark.parametrize("shape", ONE_OF)
 def test_one_hyperedge(benchmark: Any, shape: str) -> None:
     """100,000 attachments."""
+    benchmark.group = "CURVES, one hyperedge of 100,000 attachments"
+    benchmark.extra_info["points"] = shape
     points = ONE_OF[shape](np.random.default_rng(0), 100_000)
     arguments = points, upwards(len(points)), np.array([0, len(points)]), np.array([3.0])
     benchmark.pedantic(lay_out, arguments, rounds=3, warmup_rounds=1)
@@ -70,12 +76,14 @@ def test_one_hyperedge(benchmark: Any, shape: str) -> None:
 
 def test_one_hyperedge_in_plain_python(benchmark: Any) -> None:
     """60 attachments, as the paper has it: the time grows with their cube."""
+    benchmark.group = "CURVES, one hyperedge of 60 attachments"
     points = ONE_OF["spread"](np.random.default_rng(0), 60)
     benchmark.pedantic(paper.curves, (points, 3.0, "prose"), rounds=2)
 
 
 def test_join_planes(benchmark: Any) -> None:
     """Heights of 100,000 hyperedges."""
+    benchmark.group = "Join planes of 100,000 hyperedges"
     points, starts = many(100_000, 1000.0)
     arguments = placement(points, starts.tolist()), 0.05, np.full(len(starts) - 1, np.nan)
     benchmark.pedantic(choose_join_planes, arguments, rounds=3, warmup_rounds=1)

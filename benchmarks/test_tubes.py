@@ -106,7 +106,6 @@ def routing_and_rounds(request: pytest.FixtureRequest) -> tuple[Routing, int]:
 
 def _note(benchmark: Any, routing: Routing, vertices: int) -> None:
     segments = len(routing.control_points)
-    benchmark.group = f"Tubes of {segments:,} segments, {SIDES} sides"
     nanoseconds = 1e9 * benchmark.stats.stats.median / vertices
     benchmark.extra_info["for each vertex"] = f"{nanoseconds:.1f} ns"
     benchmark.extra_info["rings a tube"] = f"{vertices / segments / SIDES:.1f}"
@@ -115,6 +114,7 @@ def _note(benchmark: Any, routing: Routing, vertices: int) -> None:
 def test_sweep_tubeloom(benchmark: Any, routing_and_rounds: tuple[Routing, int]) -> None:
     """Ours: positions, normals, indices, rounded ends."""
     routing, rounds = routing_and_rounds
+    benchmark.group = f"Tubes of {len(routing.control_points):,} segments, {SIDES} sides"
     made = benchmark.pedantic(sweep, (routing, TOLERANCE), rounds=rounds, warmup_rounds=1)
     _note(benchmark, routing, len(made.vertices))
 
@@ -122,6 +122,7 @@ def test_sweep_tubeloom(benchmark: Any, routing_and_rounds: tuple[Routing, int])
 def test_vtk_tube_filter(benchmark: Any, routing_and_rounds: tuple[Routing, int]) -> None:
     """What a user would pick: the same polylines, as many sides, normals."""
     routing, rounds = routing_and_rounds
+    benchmark.group = f"Tubes of {len(routing.control_points):,} segments, {SIDES} sides"
     tubes = vtk_filter(*axes_of(routing))
 
     def update() -> None:
