@@ -11,7 +11,7 @@ from app.placement.family import Family
 from app.placement.fitting import fit, shape_of, written_extent
 from app.placement.labels import front, strip
 from app.placement.rows import Arrangement, arrange
-from app.placement.turning import UNTURNED, Quaternion, from_degrees, reach
+from app.placement.turning import UNTURNED, Quaternion, from_degrees, reach, turned
 from app.program import shapes
 from app.program.model import Item, LineUp, Program
 from app.solids.extents import size_of
@@ -19,7 +19,11 @@ from app.solids.lettering import TextExtent
 from app.solids.solid import Box, Size, Solid, Tray
 
 CAPTION_GAP = 0.1
-"""Between a tray's label and its contents."""
+"""Between a tray's contents and the label before them."""
+
+SIDE_CAPTION_GAP = 0.16
+"""Between a tray's contents and the label to their left: seen from the usual view, a little to the
+right, a block hides a fifth of its height of what lies on its left, some 0.12."""
 
 ROOT_GAP = 0.6
 
@@ -32,6 +36,14 @@ DEEPER = 1.4
 
 Place = tuple[float, float]
 LineUps = dict[int, list[tuple[LineUp, list[int]]]]
+
+
+@dataclass(frozen=True, slots=True)
+class Footprint:
+    """Width and depth seen from above; ``center`` is the solid's own, seen from the middle."""
+
+    size: Place
+    center: Place
 
 
 @dataclass(slots=True)
@@ -61,13 +73,19 @@ class Sized:
         return getattr(shape, "size", None) is not None
 
     @property
-    def footprint(self) -> Place:
-        """Width and depth that the item takes among its siblings, with its label."""
-        width, depth, _ = reach(self.turn, self.size)
+    def footprint(self) -> Footprint:
+        """The room that the item takes among its siblings, with its label, as it is turned."""
         before = front(self.solid, self.label)
-        if before and self.label is not None:
-            width = max(width, self.label.width)
-        return (width, depth + before)
+        if self.label is None or not before:
+            width, depth, _ = reach(self.turn, self.size)
+            return Footprint((width, depth), (0.0, 0.0))
+        width, depth, rise = self.size
+        # The label stands on the ground before the solid, and may be taller.
+        tallest = max(rise, strip(self.label))
+        whole = (max(width, self.label.width), depth + before, tallest)
+        x, y, _ = turned(self.turn, (0.0, before / 2, (rise - tallest) / 2))
+        width, depth, _ = reach(self.turn, whole)
+        return Footprint((width, depth), (x, y))
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,19 +168,20 @@ def _arrange_free(
     arrangement: Arrangement,
 ) -> tuple[dict[int, Place], float, float]:
     """Places about the centre, width and depth; what lines up is arranged first, then as one."""
-    block_of = {child: members for _, members in line_ups for child in members}
+    taken = {child: sized[child].footprint for child in free}
+    line_of = {child: (line_up, members) for line_up, members in line_ups for child in members}
     blocks: list[list[int]] = []
     footprints: list[Place] = []
     within: dict[int, Place] = {}
     for child in free:
-        members = block_of.get(child)
-        if members is None:
+        if child not in line_of:
             blocks.append([child])
-            footprints.append(sized[child].footprint)
+            footprints.append(taken[child].size)
             within[child] = (0.0, 0.0)
-        elif child == members[0]:
-            line_up = next(found for found, others in line_ups if others is members)
-            inner = arrange([sized[member].footprint for member in members], gap, line_up.type)
+            continue
+        line_up, members = line_of[child]
+        if child == members[0]:
+            inner = arrange([taken[member].size for member in members], gap, line_up.type)
             blocks.append(members)
             footprints.append((inner.width, inner.depth))
             within.update(zip(members, inner.centers, strict=True))
@@ -172,11 +191,8 @@ def _arrange_free(
         if len(block) == 1:
             _deepen(sized[block[0]], row)
         for child in block:
-            before = front(sized[child].solid, sized[child].label)
-            places[child] = (
-                center[0] + within[child][0],
-                center[1] + within[child][1] + before / 2,
-            )
+            x, y = taken[child].center
+            places[child] = (center[0] + within[child][0] + x, center[1] + within[child][1] + y)
     return places, outer.width, outer.depth
 
 
@@ -209,9 +225,10 @@ def _bounds(items: Sequence[Sized]) -> tuple[Place, Place]:
     highs: list[Place] = []
     for sized in items:
         x, y, _ = sized.item.position or (0.0, 0.0, 0.0)
-        width, depth, _ = reach(sized.turn, sized.size)
-        width = max(width, sized.footprint[0])
-        lows.append((x - width / 2, y - depth / 2 - front(sized.solid, sized.label)))
+        taken = sized.footprint
+        x, y = x - taken.center[0], y - taken.center[1]
+        width, depth = taken.size
+        lows.append((x - width / 2, y - depth / 2))
         highs.append((x + width / 2, y + depth / 2))
     return (
         (min(low[0] for low in lows), min(low[1] for low in lows)),
@@ -226,7 +243,7 @@ def _enclose(parent: Sized, contents: Contents) -> None:
     beside = before = 0.0
     if is_tray and parent.label is not None:
         if style.caption == "left":
-            beside = parent.label.width + CAPTION_GAP
+            beside = parent.label.width + SIDE_CAPTION_GAP
         else:
             before = strip(parent.label) + CAPTION_GAP
     (left, near), (right, far) = contents.low, contents.high

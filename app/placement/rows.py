@@ -22,6 +22,9 @@ FEW = 12
 TRIES = 40
 """Row widths tried for more rectangles."""
 
+THIN = 1e-9
+"""What counts as the width or depth of a rectangle that has none: letters without ink."""
+
 
 @dataclass(frozen=True, slots=True)
 class Arranged:
@@ -44,17 +47,23 @@ def arrange(
     >>> arrange([(1.0, 1.0), (1.0, 1.0)], 0.5, "row").width
     2.5
     """
-    return _arranged(tuple(sizes), gap, arrangement)
+    arranged = _kept if len(sizes) <= FEW else _arranged
+    return arranged(tuple(sizes), gap, arrangement)
 
 
+# Small groups come again and again; large ones would only fill the memory of a long-lived process.
 @lru_cache(maxsize=4096)
+def _kept(sizes: tuple[tuple[float, float], ...], gap: float, arrangement: Arrangement) -> Arranged:
+    return _arranged(sizes, gap, arrangement)
+
+
 def _arranged(
     sizes: tuple[tuple[float, float], ...], gap: float, arrangement: Arrangement
 ) -> Arranged:
     if not sizes:
         return Arranged((), (), 0.0, 0.0)
     widths = np.array([size[0] for size in sizes])
-    if arrangement == "row":
+    if arrangement == "row" or len(sizes) == 1:
         rows = [len(sizes)]
     elif arrangement == "column":
         rows = [1] * len(sizes)
@@ -68,7 +77,7 @@ def _best_rows(widths: Floats, depths: Floats, gap: float) -> list[int]:
     # Where each rectangle begins if all stood in one row.
     begins = np.concatenate([[0.0], np.cumsum(widths + gap)])
     whole = float(begins[-1] - gap)
-    widest = float(widths.max())
+    widest = max(float(widths.max()), THIN)
     best = (np.inf, [len(widths)])
     for width in _row_widths(begins, gap, widest, whole, len(widths)):
         rows: list[int] = []
@@ -82,7 +91,7 @@ def _best_rows(widths: Floats, depths: Floats, gap: float) -> list[int]:
             deep += float(depths[first:last].max()) + gap
             first = last
         deep -= gap
-        aspect = wide / max(deep, 1e-9)
+        aspect = max(wide, THIN) / max(deep, THIN)
         cost = (wide + gap) * (deep + gap) * max(aspect / ASPECT, ASPECT / aspect) ** 0.7
         if cost < best[0] - 1e-9:
             best = (cost, rows)
@@ -91,9 +100,9 @@ def _best_rows(widths: Floats, depths: Floats, gap: float) -> list[int]:
 
 def _row_widths(begins: Floats, gap: float, widest: float, whole: float, count: int) -> list[float]:
     if count <= FEW:
-        # Every width at which some row is just full.
+        # Every width at which some row is just full; equal ones differ by what rounding left.
         runs = (begins[None, :] - begins[:, None] - gap)[np.triu_indices(count + 1, 1)]
-        return sorted({max(float(width), widest) for width in runs}, reverse=True)
+        return sorted({max(round(width, 9), widest) for width in runs.tolist()}, reverse=True)
     square = np.sqrt(whole * widest)
     return [
         float(width)

@@ -1,4 +1,5 @@
 import json
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -6,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from app.arrays import Floats
 from app.notations.loader import load_notation
@@ -164,6 +166,62 @@ def test_labels_lie_on_their_items() -> None:
             assert abs(y) + tall / 2 <= size[1] / 2
 
 
+@settings(deadline=None, max_examples=60)
+@given(
+    st.lists(
+        st.tuples(
+            st.sampled_from(["sphere", "cylinder", "cone", "arrow", "box", "text"]),
+            st.tuples(*[st.sampled_from([0, 30, 90, 180, -75])] * 3),
+            st.sampled_from(["x", "a longer label"]),
+        ),
+        min_size=2,
+        max_size=6,
+    )
+)
+def test_labels_of_turned_items_keep_clear_of_their_siblings_and_their_tray(
+    children: list[tuple[str, tuple[int, int, int], str]],
+) -> None:
+    items: list[dict[str, Any]] = [{"id": "tray", "label": "contents"}]
+    for number, (shape, turn, label) in enumerate(children):
+        turned_child = {"shape": {"type": shape}, "rotation": list(turn), "label": label}
+        items.append({"id": str(number), "parent": "tray", **turned_child})
+    made = placed({"items": items})
+    boxes_seen = [box_with_label(made, number) for number in range(1, len(items))]
+    for number, (low, high) in enumerate(boxes_seen):
+        for other_low, other_high in boxes_seen[:number]:
+            assert np.maximum(low - other_high, other_low - high).max() > 0
+    tray, caption = made.solids[0], made.labels[0]
+    assert isinstance(tray, Tray)
+    assert caption is not None
+    inner = made.sizes[0, :2] / 2 - tray.wall
+    caption_top = made.centers[0, 1] + caption.position[1] + size_of(caption.text)[1] / 2
+    for low, high in boxes_seen:
+        assert (low > made.centers[0, :2] - inner).all()
+        assert (high < made.centers[0, :2] + inner).all()
+        assert low[1] > caption_top
+
+
+def box_with_label(made: Placement, number: int) -> tuple[Floats, Floats]:
+    """Low and high corners (2,), seen from above, of an item and its label, turned as they are."""
+    solids = [(made.sizes[number], np.zeros(3), Rotation.identity())]
+    label = made.labels[number]
+    if label is not None:
+        place_of_label = (np.array(label.position), Rotation.from_quat(label.rotation))
+        solids.append((np.array(size_of(label.text)), *place_of_label))
+    unit = np.array(list(product((-0.5, 0.5), repeat=3)))
+    own = np.concatenate([turn.apply(unit * size) + at for size, at, turn in solids])
+    seen = Rotation.from_quat(made.rotations[number]).apply(own) + made.centers[number]
+    return seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+
+
+@pytest.mark.parametrize("count", [1, 2, 13])
+def test_letters_without_ink_take_a_place_but_no_room(count: int) -> None:
+    text = {"label": "\N{ZERO WIDTH SPACE}", "shape": {"type": "text"}}
+    made = placed({"items": [{"id": str(number), **text} for number in range(count)]})
+    assert (made.sizes == 0).all()
+    assert len({tuple(center) for center in made.centers}) == count
+
+
 def test_without_labels_nothing_is_written_and_no_room_is_taken() -> None:
     items = [{"id": "a", "label": "a very long label indeed"}]
     shown = placed({"items": items})
@@ -205,6 +263,16 @@ def test_what_lines_up_stands_in_one_line_in_order() -> None:
         line = made.centers[[7, 2, 5]]
         assert len(set(line[:, 1 - axis].round(9))) == 1
         assert (np.diff(line[:, axis]) * sign > 0).all()
+
+
+def test_lines_stand_each_in_their_own_row() -> None:
+    names = [str(n) for n in range(40)]
+    pairs = [[names[n + 1], names[n]] for n in range(0, 40, 2)]
+    layout = {"constraints": [{"type": "row", "items": pair} for pair in pairs]}
+    made = placed({"items": [{"id": name} for name in names], "layout": layout})
+    assert (made.centers[1::2, 0] < made.centers[::2, 0]).all()
+    np.testing.assert_array_equal(made.centers[1::2, 1], made.centers[::2, 1])
+    assert len({tuple(center) for center in made.centers}) == 40
 
 
 def test_free_children_stand_before_those_with_positions() -> None:

@@ -1,7 +1,8 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.placement.rows import arrange
+from app.placement import rows
+from app.placement.rows import FEW, arrange
 
 sizes = st.lists(st.tuples(st.floats(0.1, 5), st.floats(0.1, 5)), min_size=1, max_size=60)
 
@@ -47,3 +48,9 @@ def test_twenty_thousand_rectangles_make_a_good_whole() -> None:
 
 def test_nothing_takes_no_room() -> None:
     assert arrange([], 1.0).width == 0.0
+
+
+def test_many_rectangles_are_forgotten_again() -> None:
+    kept = rows._kept.cache_info().currsize
+    arrange([(1.5, 1.25)] * (FEW + 1), 0.3)
+    assert rows._kept.cache_info().currsize == kept
