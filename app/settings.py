@@ -26,6 +26,12 @@ class Settings(BaseSettings):
     max_waiting: int = Field(64, ge=0, description="Requests that may wait for a worker.")
     deadline_seconds: float = Field(60.0, gt=0, description="Longest work on one request.")
 
+    max_worker_bytes: int = Field(
+        4 * 1024**3, ge=512 * 1024**2, description="Memory that one worker may take."
+    )
+    max_values: int = Field(
+        2_000_000, ge=1, description="JSON values in one document, counted by commas."
+    )
     max_items: int = Field(20_000, ge=1)
     max_hyperedges: int = Field(100_000, ge=1)
     max_attachments: int = Field(400_000, ge=2, description="Over all hyperedges together.")

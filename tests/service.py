@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import random
 import re
 import subprocess
 import sys
@@ -122,6 +123,24 @@ def large_program(items: int) -> bytes:
             "hyperedges": [
                 {"id": first, "attachments": [{"item": first}, {"item": second}, {"item": third}]}
                 for first, second, third in zip(names, names[1:], names[2:], strict=False)
+            ],
+        }
+    ).encode()
+
+
+def wide_program(hyperedges: int) -> bytes:
+    """A program whose scene is large: long tubes across a thousand items."""
+    choices = random.Random(1)
+    names = [str(number) for number in range(1000)]
+    return json.dumps(
+        {
+            "items": [{"id": name} for name in names],
+            "hyperedges": [
+                {
+                    "id": str(number),
+                    "attachments": [{"item": name} for name in choices.sample(names, 5)],
+                }
+                for number in range(hyperedges)
             ],
         }
     ).encode()

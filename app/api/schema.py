@@ -18,8 +18,8 @@ from pydantic.json_schema import models_json_schema
 from app.api import problems
 from app.api.journal import HEADER as REQUEST_ID
 from app.api.layout_model import LayoutNumbers
+from app.formats.netlist import Netlist
 from app.formats.registry import FORMATS
-from app.formats.yosys import Netlist
 from app.output.media import SceneFormat
 from app.program.model import Program
 

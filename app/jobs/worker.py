@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 import itertools
 import os
+import resource
 import select
 import signal
 import socket
@@ -20,7 +21,7 @@ from dataclasses import replace
 
 from app import pipeline
 from app.answers import Answer, RenderOptions
-from app.errors import TubeloomError
+from app.errors import DocumentTooLarge, Fault, TubeloomError
 from app.jobs import channel
 from app.jobs.work import Crash, Ready, Reply, Stage, Work
 from app.output.draft import draft_problem
@@ -41,6 +42,8 @@ def main() -> None:
     threading.Thread(target=_die_with_the_service, args=(end,), daemon=True).start()
     try:
         settings: Settings = channel.receive(end)[0]
+        # So that a scene too large ends in an error here, and not in the system's choice of victim.
+        resource.setrlimit(resource.RLIMIT_DATA, 2 * (settings.max_worker_bytes,))
         channel.send(end, _prepare(settings))
         while True:
             work, document = channel.receive(end)
@@ -61,6 +64,8 @@ def do(work: Work, document: bytes, settings: Settings) -> tuple[Reply, bytes]:
         outcome = pipeline.answer(document, work.options, settings, work.known, note)
     except TubeloomError as error:
         return Reply(error, _durations(stages)), b""
+    except MemoryError:
+        return Reply(_too_much_memory(settings), _durations(stages)), b""
     except Exception:
         return Reply(Crash(traceback.format_exc()), _durations(stages)), b""
     if isinstance(outcome, Answer):
@@ -80,6 +85,13 @@ def _prepare(settings: Settings) -> Ready | Crash:
     gc.collect()
     gc.freeze()
     return Ready(draft_problem())
+
+
+def _too_much_memory(settings: Settings) -> DocumentTooLarge:
+    most = settings.max_worker_bytes / 1024**3
+    return DocumentTooLarge(
+        [Fault("", f"The answer would take more than the {most:g} GiB of memory that it may.")]
+    )
 
 
 def _durations(stages: list[tuple[str, float]]) -> tuple[Stage, ...]:

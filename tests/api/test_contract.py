@@ -43,6 +43,6 @@ def map_case(_context: Any, case: schemathesis.Case[Any]) -> schemathesis.Case[A
 
 
 @schema.parametrize()
-@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
 def test_the_service_does_what_it_says(case: schemathesis.Case[Any], service: Service) -> None:
     case.call_and_validate(base_url=service.url)

@@ -19,7 +19,7 @@ from tests.service import (
     until,
 )
 
-LARGE = large_program(2000)
+LARGE = large_program(1500)
 
 
 def test_a_heavy_render_keeps_nobody_else_waiting(service: Service, client: httpx.Client) -> None:
@@ -55,7 +55,7 @@ def test_a_worker_killed_at_work_costs_its_request_a_retry_and_others_nothing(
 
 
 def test_who_leaves_has_the_long_work_stopped(service: Service, client: httpx.Client) -> None:
-    very_large = large_program(8000)
+    very_large = large_program(6000)
     spent = {worker.pid: cpu_seconds(worker) for worker in service.workers()}
     with service.client() as other, pytest.raises(httpx.ReadTimeout):
         other.post(

@@ -13,13 +13,13 @@ import psutil
 import pytest
 
 from app.answers import Answer, LayoutOptions, RenderOptions, Unchanged
-from app.errors import DeadlineExceeded, InvalidDocument, Overloaded
+from app.errors import DeadlineExceeded, DocumentTooLarge, InvalidDocument, Overloaded
 from app.jobs.executor import WorkerPool
 from app.settings import Settings
-from tests.service import SMALL, large_program
+from tests.service import SMALL, large_program, wide_program
 
 DOCUMENT = json.dumps(SMALL).encode()
-LARGE = large_program(2000)
+LARGE = large_program(1500)
 
 
 Test = Callable[[WorkerPool], Coroutine[Any, Any, None]]
@@ -62,7 +62,9 @@ async def warm(pool: WorkerPool) -> None:
             return
 
 
-def test_works_that_come_before_a_worker_is_warm_are_done() -> None:
+def test_works_wait_for_the_first_worker_and_the_end_of_the_pool_is_that_of_its_workers() -> None:
+    before = worker_pids()
+
     async def test(pool: WorkerPool) -> None:
         assert pool.warm == 0
         finished = await pool.answer(DOCUMENT, RenderOptions())
@@ -74,6 +76,7 @@ def test_works_that_come_before_a_worker_is_warm_are_done() -> None:
         assert again.answer == Unchanged(finished.answer.etag)
 
     in_new_pool(test)
+    assert worker_pids() == before
 
 
 def test_errors_of_the_document_come_through_and_cost_no_worker(
@@ -115,6 +118,18 @@ def test_work_beyond_the_deadline_is_stopped_and_its_worker_replaced() -> None:
     in_new_pool(test, deadline_seconds=0.3)
 
 
+def test_a_scene_that_takes_too_much_memory_is_refused_and_costs_no_worker() -> None:
+    async def test(pool: WorkerPool) -> None:
+        await warm(pool)
+        before = worker_pids()
+        with pytest.raises(DocumentTooLarge, match=r"0\.5 GiB"):
+            await pool.answer(wide_program(3000), RenderOptions())
+        await warm(pool)
+        assert worker_pids() == before
+
+    in_new_pool(test, max_worker_bytes=512 * 1024**2)
+
+
 def test_a_full_line_turns_works_away_at_once_and_leaving_it_frees_a_place(
     in_pool: Callable[[Test], None],
 ) -> None:
@@ -147,9 +162,3 @@ def test_short_work_that_nobody_waits_for_ends_and_keeps_its_worker(
         assert worker_pids() == before
 
     in_pool(test)
-
-
-def test_the_end_of_a_pool_is_the_end_of_its_workers() -> None:
-    before = worker_pids()
-    in_new_pool(warm)
-    assert worker_pids() == before
