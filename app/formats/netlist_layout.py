@@ -1,44 +1,63 @@
-"""Netlists from left to right: blocks in columns by their depth from inputs and constants."""
+"""Netlists from left to right: blocks in columns by their depth from inputs."""
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from enum import Enum
 
 from pydantic import JsonValue
 
+from app.formats.columns import depths, levels
+from app.formats.netlist import Bit
 from app.program.base import Vector
 from app.program.model import AttachmentPoint, Item
 from app.program.shapes import Box
 
-SOURCES = ("input", "constant")
-"""Kinds that stand in the first column."""
-
 PITCH = 0.36
 """Between pins on one side: room for two tubes and air."""
+
+LONGEST_SIDE = 50_000.0
+"""Sides with very many pins have them nearer together: lengths of a document have a limit."""
 
 HEIGHT = 0.62
 SIDE_MARGIN = 0.3
 COLUMN_GAP = 2.6
 """Between columns: where the tubes are seen best."""
 
-ROW_GAP = 0.7
+ROW_GAP = 0.95
+"""Between rows: a block's label is on its front, and must not be hidden by the block before it."""
+
 LETTER = 0.27
 """Width of a letter of a block's label, roughly; formats do not know lettering."""
+
+WIDEST = 6.0
+"""Labels that need more are fitted to this."""
 
 PIN_DROP = 0.12
 """How far below the top edge a pin sits on its side."""
 
 
+class Side(Enum):
+    """Where on a block a pin is: what it takes on the left, what it gives on the right.
+
+    Pins that do both are at the back; the label is on the front.
+    """
+
+    LEFT = (-1, 0)
+    RIGHT = (1, 0)
+    BACK = (0, 1)
+
+
 @dataclass(frozen=True, slots=True)
 class Pin:
-    """One bit of a port of a block: ``side`` is -1 on the left, 1 on the right."""
+    """One bit of a port of a block; ``bit`` is the number of its net, or a constant."""
 
     id: str
     port: str
-    bit: int | str
-    side: int
+    bit: Bit
+    side: Side
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,32 +70,36 @@ class Block:
     pins: tuple[Pin, ...]
     data: Mapping[str, JsonValue] = field(default_factory=dict)
 
-    def on_side(self, side: int) -> tuple[Pin, ...]:
-        """The pins on one side, the first at the back."""
-        return tuple(pin for pin in self.pins if pin.side == side)
+    def on(self, side: Side) -> tuple[Pin, ...]:
+        """The pins on one side: from the back to the front, or from left to right."""
+        return tuple(pin for pin in self.pins if pin.side is side)
 
     @property
     def size(self) -> Vector:
         """Room for the label at the front and for the pins at the sides."""
-        pins = max(len(self.on_side(-1)), len(self.on_side(1)))
-        width = max(1.1, LETTER * len(self.label) + 0.45)
-        return (min(width, 6.0), max(0.8, PITCH * (pins - 1) + 2 * SIDE_MARGIN), HEIGHT)
+        beside = max(len(self.on(Side.LEFT)), len(self.on(Side.RIGHT)))
+        width = min(max(1.1, LETTER * len(self.label) + 0.45), WIDEST)
+        return (
+            max(width, _length(len(self.on(Side.BACK)))),
+            max(0.8, _length(beside)),
+            HEIGHT,
+        )
 
 
-def arrange(blocks: Sequence[Block], nets: Iterable[Sequence[tuple[Block, Pin]]]) -> list[Item]:
+def arrange(blocks: Sequence[Block], nets: Sequence[Sequence[tuple[Block, Pin]]]) -> list[Item]:
     """Items for ``blocks``, placed so that nets run from left to right."""
-    drives: dict[str, list[str]] = defaultdict(list)
-    for net in nets:
-        for driver, _ in (end for end in net if end[1].side > 0):
-            drives[driver.id].extend(taker.id for taker, pin in net if pin.side < 0)
-    columns = _columns(blocks, _depths(blocks, drives))
-    _order_by_neighbours(columns, drives)
+    numbers = {block.id: number for number, block in enumerate(blocks)}
+    drivers = [_ends(net, numbers, gives=True) for net in nets]
+    takers = [_ends(net, numbers, gives=False) for net in nets]
+    columns = _columns(blocks, drivers, takers)
+    order = levels(columns, drivers, takers)
     items: list[Item] = []
     x = 0.0
-    for column in columns:
-        width = max(block.size[0] for block in column)
-        y = sum(block.size[1] + ROW_GAP for block in column) / 2 - ROW_GAP / 2
-        for block in column:
+    for column in order:
+        width = max(blocks[number].size[0] for number in column)
+        y = sum(blocks[number].size[1] + ROW_GAP for number in column) / 2 - ROW_GAP / 2
+        for number in column:
+            block = blocks[number]
             center = (x + width / 2, y - block.size[1] / 2, block.size[2] / 2)
             items.append(_item(block, center))
             y -= block.size[1] + ROW_GAP
@@ -84,78 +107,76 @@ def arrange(blocks: Sequence[Block], nets: Iterable[Sequence[tuple[Block, Pin]]]
     return items
 
 
-def _depths(blocks: Sequence[Block], drives: Mapping[str, Sequence[str]]) -> dict[str, int]:
-    """Longest way from an input; flip-flops start anew, and so does one block of each circle."""
-    starts_anew = {block.id for block in blocks if block.kind in (*SOURCES, "flipflop")}
-    waiting: dict[str, int] = {block.id: 0 for block in blocks}
-    for takers in drives.values():
-        for taker in takers:
-            if taker not in starts_anew:
-                waiting[taker] += 1
-    depths = {block.id: 0 if block.kind in SOURCES else 1 for block in blocks}
-    ready = [block.id for block in blocks if waiting[block.id] == 0]
-    left = {block.id: None for block in blocks}
-    while left:
-        if not ready:
-            ready.append(next(iter(left)))
-        name = ready.pop(0)
-        if name not in left:
-            continue
-        del left[name]
-        for taker in drives.get(name, ()):
-            if taker in starts_anew or taker not in left:
-                continue
-            depths[taker] = max(depths[taker], depths[name] + 1)
-            waiting[taker] -= 1
-            if waiting[taker] == 0:
-                ready.append(taker)
-    last = 1 + max(depths.values())
-    for block in blocks:
-        if block.kind == "output":
-            depths[block.id] = last
-    return depths
+def _ends(
+    net: Iterable[tuple[Block, Pin]], numbers: Mapping[str, int], *, gives: bool
+) -> tuple[int, ...]:
+    """Numbers of the blocks that drive a net, or of those that take from it; each once."""
+    found = {numbers[block.id]: None for block, pin in net if (pin.side is Side.RIGHT) is gives}
+    return tuple(found)
 
 
-def _columns(blocks: Sequence[Block], depths: Mapping[str, int]) -> list[list[Block]]:
-    columns: dict[int, list[Block]] = defaultdict(list)
-    for block in blocks:
-        columns[depths[block.id]].append(block)
-    return [columns[depth] for depth in sorted(columns)]
-
-
-def _order_by_neighbours(columns: list[list[Block]], drives: Mapping[str, Sequence[str]]) -> None:
-    """Put each block level with what drives it (barycentres, from left to right)."""
-    drivers: dict[str, list[str]] = defaultdict(list)
-    for driver, takers in drives.items():
-        for taker in takers:
-            drivers[taker].append(driver)
-    levels: dict[str, float] = {}
-    for column in columns:
-        wanted = {}
-        for place, block in enumerate(column):
-            seen = [levels[name] for name in drivers[block.id] if name in levels]
-            wanted[block.id] = sum(seen) / len(seen) if seen else place / len(column)
-        column.sort(key=lambda block: wanted[block.id])
-        levels.update({block.id: (n + 0.5) / len(column) for n, block in enumerate(column)})
+def _columns(
+    blocks: Sequence[Block],
+    drivers: Sequence[tuple[int, ...]],
+    takers: Sequence[tuple[int, ...]],
+) -> list[list[int]]:
+    """Numbers of the blocks in each column: module inputs first, module outputs last."""
+    kinds = [block.kind for block in blocks]
+    anew = [kind in ("input", "constant", "flipflop") for kind in kinds]
+    inner = [0 if kind == "input" else 1 for kind in kinds]
+    depth = depths(inner, anew, drivers, takers)
+    last = 1 + max(depth)
+    nearest = {number: last for number, kind in enumerate(kinds) if kind == "constant"}
+    for sources, ends in zip(drivers, takers, strict=True):
+        for source in sources:
+            if source in nearest:
+                nearest[source] = min([nearest[source], *(depth[end] for end in ends)])
+    for number, kind in enumerate(kinds):
+        if kind == "output":
+            depth[number] = last
+        elif kind == "constant":
+            # Just before what it feeds.
+            depth[number] = nearest[number] - 1
+    columns: dict[int, list[int]] = defaultdict(list)
+    for number in range(len(blocks)):
+        columns[depth[number]].append(number)
+    return [columns[key] for key in sorted(columns)]
 
 
 def _item(block: Block, center: Vector) -> Item:
-    width, _, height = block.size
+    width, depth, height = block.size
     points = []
-    for side in (-1, 1):
-        pins = block.on_side(side)
+    for side in Side:
+        pins = block.on(side)
+        pitch = _pitch(len(pins))
+        right, back = side.value
         for place, pin in enumerate(pins):
-            y = PITCH * ((len(pins) - 1) / 2 - place)
-            position = (side * width / 2, y, height / 2 - PIN_DROP)
+            along = pitch * (place - (len(pins) - 1) / 2)
+            position = (
+                right * width / 2 + back * along,
+                back * depth / 2 - abs(right) * along,
+                height / 2 - PIN_DROP,
+            )
             points.append(
-                AttachmentPoint(id=pin.id, position=position, direction=(0.6 * side, 0.0, 0.8))
+                AttachmentPoint(
+                    id=pin.id, position=position, direction=(0.6 * right, 0.6 * back, 0.8)
+                )
             )
     return Item(
         id=block.id,
         kind=block.kind,
-        label=block.label[:500],
+        label=block.label,
         shape=Box(type="box", size=block.size),
         position=center,
         attachment_points=tuple(points),
         data=dict(block.data),
     )
+
+
+def _pitch(pins: int) -> float:
+    return min(PITCH, LONGEST_SIDE / max(pins, 1))
+
+
+def _length(pins: int) -> float:
+    """Of a side with so many pins."""
+    return _pitch(pins) * (pins - 1) + 2 * SIDE_MARGIN if pins else 0.0

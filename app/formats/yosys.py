@@ -1,220 +1,195 @@
 """Yosys netlists: cells and module ports become items, nets become hyperedges.
 
-The module shown is the one marked as top, else the first that no other module instantiates. A net
-of two or more pins is one hyperedge, however many pins it has. A constant (0, 1, x, z) is an item
-too and drives a net of its own: one hyperedge to all pins that it feeds.
+One module is shown (`app.formats.netlist.Netlist.top` says which). A net of two or more pins is one
+hyperedge, however many pins it has. A constant (0, 1, x, z) is an item too and drives a net of its
+own: one hyperedge to all pins that it feeds.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Annotated, Literal
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from hashlib import sha256
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
-
-from app.errors import Fault, InconsistentDocument
-from app.formats.netlist_layout import Block, Pin, arrange
-from app.program.base import Data
+from app.errors import DocumentTooLarge, Fault, InconsistentDocument, pointer
+from app.formats.cell_kinds import kind_of, plain_type
+from app.formats.netlist import Bit, Cell, Module, Netlist, bit_names
+from app.formats.netlist_layout import Block, Pin, Side, arrange
 from app.program.checking import check
+from app.program.collection import collection_paused
 from app.program.model import Attachment, Hyperedge, Program
+from app.program.parsing import parse
 from app.program.reading import validate
 from app.settings import Settings
 
-Direction = Literal["input", "output", "inout"]
-
-
-def _whole(number: object) -> object:
-    """JSON knows no integers: 3.0 is 3."""
-    return int(number) if isinstance(number, float) and number.is_integer() else number
-
-
-Bit = Annotated[int, Field(ge=0), BeforeValidator(_whole)] | Literal["0", "1", "x", "z"]
-Name = Annotated[str, Field(min_length=1, max_length=150)]
+Net = Sequence[tuple[Block, Pin]]
 
 GIVING_PORTS = ("Y", "Q", "O", "OUT", "CO", "X")
 """Ports that most likely give, where a netlist does not say."""
 
-KINDS = {
-    "flipflop": ("dff", "sdff", "adff", "dlatch", "ff", "sr"),
-    "mux": ("mux", "pmux", "bmux", "demux"),
-    "arithmetic": ("add", "sub", "mul", "div", "mod", "neg", "alu", "macc", "fa", "lcu", "pow",
-                   "lt", "le", "eq", "ne", "ge", "gt", "shl", "shr", "sshl", "sshr", "shift"),
-    "logic": ("and", "or", "xor", "xnor", "nand", "nor", "not", "buf", "logic", "reduce", "pos"),
-}  # fmt: skip
-"""Kinds of cells, by how their types begin (the first that fits)."""
+CLOCK_PORTS = ("CLK", "CK", "CLOCK")
 
+NOTES = ("$scopeinfo",)
+"""Types of cells that carry remarks about the source and join nothing."""
 
-class _Section(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="ignore")
-
-
-class Port(_Section):
-    """A port of a module."""
-
-    direction: Direction
-    bits: tuple[Bit, ...]
-
-
-class Cell(_Section):
-    """A cell of a module."""
-
-    type: Annotated[str, Field(max_length=400)]
-    connections: dict[Name, tuple[Bit, ...]]
-    port_directions: dict[Name, Direction] = Field(default_factory=dict)
-    parameters: Data = Field(default_factory=dict)
-    attributes: Data = Field(default_factory=dict)
-
-
-class NetName(_Section):
-    """A name for some nets."""
-
-    bits: tuple[Bit, ...] = ()
-    hide_name: Annotated[int, BeforeValidator(_whole)] = 0
-
-
-class Module(_Section):
-    """A module: what is drawn."""
-
-    attributes: Data = Field(default_factory=dict)
-    ports: dict[Name, Port] = Field(default_factory=dict)
-    cells: dict[Name, Cell] = Field(default_factory=dict)
-    netnames: dict[str, NetName] = Field(default_factory=dict)
-
-
-class Netlist(_Section):
-    """A Yosys netlist, as written by ``write_json``; parts that are not drawn are left out."""
-
-    modules: dict[str, Module] = Field(min_length=1)
+LONGEST_LABEL = 40
+LONGEST_NAME = 140
+"""Letters of a name that go into an id."""
 
 
 def read(data: bytes, settings: Settings) -> Program:
     """The program that shows a netlist.
 
-    Raises `UnreadableDocument`, `InvalidDocument` with pointers into the netlist, and what
-    `app.program.checking.check` raises.
+    Raises `UnreadableDocument`, `InvalidDocument`, `InconsistentDocument` and `DocumentTooLarge`,
+    all with pointers into the netlist.
     """
-    netlist = validate(Netlist, data)
-    name = _top(netlist.modules)
-    program = _program(name, netlist.modules[name])
-    check(program, settings)
+    with collection_paused():
+        netlist = validate(Netlist, parse(data, settings))
+        name = netlist.top()
+        _refuse_large(name, netlist.modules[name], settings)
+        program = _program(name, netlist.modules[name])
+        check(program, settings)
     return program
 
 
-def _top(modules: Mapping[str, Module]) -> str:
-    for name, module in modules.items():
-        if str(module.attributes.get("top", "0")).strip("0"):
-            return name
-    inner = {cell.type for module in modules.values() for cell in module.cells.values()}
-    return next((name for name in modules if name not in inner), next(iter(modules)))
+def _refuse_large(name: str, module: Module, settings: Settings) -> None:
+    """Raise `DocumentTooLarge` before any item is made."""
+    widths = [len(port.bits) for port in module.ports.values()]
+    widths += [len(bits) for cell in module.cells.values() for bits in cell.connections.values()]
+    faults = [
+        Fault(
+            pointer("modules", name),
+            f"{number} {what} are more than the limit of {most} {limited}.",
+        )
+        for number, what, most, limited in (
+            (len(module.ports) + len(module.cells), "ports and cells", settings.max_items, "items"),
+            (sum(widths), "pins", settings.max_attachments, "attachments"),
+        )
+        if number > most
+    ]
+    if faults:
+        raise DocumentTooLarge(faults)
 
 
 def _program(name: str, module: Module) -> Program:
     blocks = [*_ports(module), *_cells(module)]
-    blocks += _constants(blocks)
     if not blocks:
         raise InconsistentDocument(
-            [Fault("/modules", f'Module "{name[:40]}" has no ports or cells.')]
+            [Fault(pointer("modules", name), "There is nothing to show: no ports and no cells.")]
         )
-    nets: dict[int | str, list[tuple[Block, Pin]]] = defaultdict(list)
+    blocks += _constants(blocks)
+    nets: dict[Bit, list[tuple[Block, Pin]]] = defaultdict(list)
     for block in blocks:
         for pin in block.pins:
             nets[pin.bit].append((block, pin))
     joined = {bit: pins for bit, pins in nets.items() if len(pins) > 1}
     return Program(
-        name=name[:500],
+        name=_short(name, LONGEST_LABEL),
         notation="netlist",
-        items=tuple(arrange(blocks, joined.values())),
-        hyperedges=tuple(_nets(module, joined)),
+        items=tuple(arrange(blocks, list(joined.values()))),
+        hyperedges=tuple(_hyperedges(module, joined)),
     )
 
 
-def _nets(
-    module: Module, nets: Mapping[int | str, Iterable[tuple[Block, Pin]]]
-) -> Iterator[Hyperedge]:
+def _hyperedges(module: Module, nets: Mapping[Bit, Net]) -> Iterator[Hyperedge]:
     names = _net_names(module)
     for bit, pins in nets.items():
-        clocked = any(
-            block.kind == "flipflop" and pin.port.upper() in ("CLK", "CK", "C")
-            for block, pin in pins
-        )
+        constant = isinstance(bit, str)
         yield Hyperedge(
-            id=f"net:{bit}" if isinstance(bit, int) else f"constant:{bit}",
-            kind="clock" if clocked else "net",
-            label=(names.get(bit, f"net {bit}") if isinstance(bit, int) else bit)[:500],
+            id=f"constant:{bit}" if constant else f"net:{bit}",
+            kind="clock" if not constant and any(_is_clocked(*end) for end in pins) else "net",
+            label=_short(str(bit) if constant else names.get(bit, f"net {bit}"), LONGEST_LABEL),
             attachments=tuple(Attachment(item=block.id, point=pin.id) for block, pin in pins),
         )
 
 
-def _constants(blocks: Iterable[Block]) -> list[Block]:
-    values = {pin.bit for block in blocks for pin in block.pins if isinstance(pin.bit, str)}
-    return [
-        Block(f"constant:{value}", "constant", value, (Pin(value, value, value, 1),))
-        for value in sorted(values)
-    ]
+def _is_clocked(block: Block, pin: Pin) -> bool:
+    if pin.side is not Side.LEFT:
+        return False
+    port = pin.port.upper()
+    return port in CLOCK_PORTS or (port == "C" and block.kind == "flipflop")
 
 
 def _ports(module: Module) -> Iterator[Block]:
     for name, port in module.ports.items():
         # Seen from inside the module an input gives, to its right.
-        side = -1 if port.direction == "output" else 1
+        gives = port.direction != "output"
+        side = Side.RIGHT if gives else Side.LEFT
+        names = bit_names(name, len(port.bits), port.offset, port.upto)
         yield Block(
-            id=f"port:{name}",
-            kind="output" if port.direction == "output" else "input",
-            label=name,
-            pins=tuple(_pins(name, port.bits, side)),
-            data={"direction": port.direction},
+            id=f"port:{_distinct(name)}",
+            kind="input" if gives else "output",
+            label=_short(name, LONGEST_LABEL),
+            pins=tuple(
+                Pin(_distinct(full), name, bit, side)
+                for full, bit in zip(names, port.bits, strict=True)
+            ),
+            data={"port": name, "direction": port.direction},
         )
 
 
 def _cells(module: Module) -> Iterator[Block]:
     for name, cell in module.cells.items():
-        pins = [
-            pin
-            for port, bits in cell.connections.items()
-            for pin in _pins(port, bits, _side(cell, port))
-        ]
-        yield Block(
-            id=f"cell:{name}",
-            kind=_kind(cell.type),
-            label=cell.type.lstrip("$\\").strip("_") or cell.type,
-            pins=tuple(pins),
-            data={
-                "cell": name,
-                "type": cell.type,
-                "parameters": cell.parameters,
-                "attributes": cell.attributes,
-            },
-        )
+        if cell.type not in NOTES:
+            yield Block(
+                id=f"cell:{_distinct(name)}",
+                kind=kind_of(cell.type),
+                label=_short(plain_type(cell.type), LONGEST_LABEL),
+                pins=tuple(_pins(cell)),
+                data={
+                    "cell": name,
+                    "type": cell.type,
+                    "parameters": cell.parameters,
+                    "attributes": cell.attributes,
+                },
+            )
 
 
-def _pins(port: str, bits: tuple[Bit, ...], side: int) -> Iterator[Pin]:
-    for place, bit in enumerate(bits):
-        yield Pin(port if len(bits) == 1 else f"{port}[{place}]", port, bit, side)
+def _pins(cell: Cell) -> Iterator[Pin]:
+    # A port that is called "A[0]" itself has its own name first, and port "A" yields.
+    taken = set(cell.connections)
+    for port, bits in cell.connections.items():
+        side = _side(cell, port)
+        for name, bit in zip(bit_names(port, len(bits)), bits, strict=True):
+            full = name
+            while full != port and full in taken:
+                full += "'"
+            taken.add(full)
+            yield Pin(_distinct(full), port, bit, side)
 
 
-def _side(cell: Cell, port: str) -> int:
+def _constants(blocks: Iterable[Block]) -> list[Block]:
+    values = {pin.bit for block in blocks for pin in block.pins if isinstance(pin.bit, str)}
+    return [
+        Block(f"constant:{value}", "constant", value, (Pin(value, value, value, Side.RIGHT),))
+        for value in sorted(values)
+    ]
+
+
+def _side(cell: Cell, port: str) -> Side:
     direction = cell.port_directions.get(port)
     if direction is None:
-        return 1 if port.upper() in GIVING_PORTS else -1
-    return 1 if direction == "output" else -1
+        return Side.RIGHT if port.upper() in GIVING_PORTS else Side.LEFT
+    return {"input": Side.LEFT, "output": Side.RIGHT, "inout": Side.BACK}[direction]
 
 
-def _kind(cell_type: str) -> str:
-    plain = cell_type.lstrip("$\\").strip("_").lower()
-    for kind, beginnings in KINDS.items():
-        if plain.startswith(beginnings):
-            return kind
-    return "cell"
-
-
-def _net_names(module: Module) -> dict[int, str]:
+def _net_names(module: Module) -> dict[Bit, str]:
     """The best name of each net: a visible one before a hidden one, then the shortest."""
-    best: dict[int, tuple[bool, int, str]] = {}
+    best: dict[Bit, tuple[bool, int, str]] = {}
     for name, net in module.netnames.items():
-        for place, bit in enumerate(net.bits):
-            if isinstance(bit, int):
-                full = name if len(net.bits) == 1 else f"{name}[{place}]"
-                rank = (bool(net.hide_name), len(full), full)
-                best[bit] = min(best.get(bit, rank), rank)
+        names = bit_names(name, len(net.bits), net.offset, net.upto)
+        for full, bit in zip(names, net.bits, strict=True):
+            rank = (bool(net.hide_name), len(full), full)
+            best[bit] = min(best.get(bit, rank), rank)
     return {bit: rank[2] for bit, rank in best.items()}
+
+
+def _short(text: str, length: int) -> str:
+    return text if len(text) <= length else f"{text[: length - 1]}…"
+
+
+def _distinct(name: str) -> str:
+    """A name that is short enough for an id, and still no other's."""
+    if len(name) <= LONGEST_NAME:
+        return name
+    return f"{name[:LONGEST_NAME]}…{sha256(name.encode()).hexdigest()[:16]}"

@@ -2,85 +2,91 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from difflib import get_close_matches
-from functools import lru_cache
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
-from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-from app.program import model, shapes
-from app.program.base import Part
+from app.program.hints import Hints
 
 LONGEST_QUOTE = 40
 """Characters of an offending value worth repeating."""
 
+RIGHT = {
+    "bool_type": "Must be true or false",
+    "dict_type": "Must be an object",
+    "float_parsing": "Must be a number",
+    "float_type": "Must be a number",
+    "greater_than": "Must be greater than {gt:g}",
+    "greater_than_equal": "Must be at least {ge:g}",
+    "int_type": "Must be a whole number",
+    "less_than_equal": "Must be at most {le:g}",
+    "list_type": "Must be a list",
+    "literal_error": "Must be {expected}",
+    "model_attributes_type": "Must be an object",
+    "model_type": "Must be an object",
+    "string_pattern_mismatch": "Must be a colour such as #rrggbb",
+    "string_type": "Must be a string",
+    "tuple_type": "Must be a list",
+    "union_tag_invalid": "Must be one of {expected_tags}",
+}
+"""What comes before "not" and the value that was given, by pydantic's types of errors."""
 
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """A hint at the known name nearest to ``name``, or nothing.
+SENTENCES = {
+    "finite_data": "All numbers in it must be finite.",
+    "finite_number": "Must be a finite number.",
+    "missing": "Required, but missing.",
+    "string_too_long": "Must have at most {max_length} characters.",
+    "string_too_short": "Must not be empty.",
+    "too_long": "Must have at most {max_length} entries, not {actual_length}.",
+    "too_many_keys": "Has far more keys than there are.",
+    "too_short": "Must have at least {min_length} entries, not {actual_length}.",
+    "union_tag_not_found": 'Must have a "type".',
+}
+"""The same, of what needs no value to be repeated."""
 
-    >>> did_you_mean("labl", ["label", "kind"])
-    ' Did you mean "label"?'
+
+def advice(details: Sequence[ErrorDetails], keys: Collection[str], hints: Hints) -> str:
+    """What is wrong at one place and what would be right, as one sentence or two.
+
+    Several ``details`` are those of a union: any of its members would be right. ``keys`` are those
+    that the object has, where one is unknown.
     """
-    if len(name) > 200:
-        return ""
-    matches = get_close_matches(name, list(known), n=1)
-    return f' Did you mean "{matches[0]}"?' if matches else ""
+    if details[0]["type"] == "float_type" and type(details[0]["input"]) is int:
+        return "Must be a number that fits into 64 bits."
+    alternatives = [RIGHT[detail["type"]] for detail in details if detail["type"] in RIGHT]
+    if len(alternatives) == len(details):
+        rules = [
+            right.format_map(_context(detail))
+            for right, detail in zip(alternatives, details, strict=True)
+        ]
+        right = " or ".join([rules[0], *(rule.removeprefix("Must be ") for rule in rules[1:])])
+        return f"{right}, not {_given(details[0])}."
+    detail = next(detail for detail in details if detail["type"] not in RIGHT)
+    if detail["type"] == "extra_forbidden":
+        return f"Unknown key.{hints.at(str(detail['loc'][-1]), keys)}"
+    sentence = SENTENCES.get(detail["type"])
+    return sentence.format_map(_context(detail)) if sentence else f"{detail['msg']}."
 
 
-def advice(  # noqa: C901, PLR0911, PLR0912 - a table of cases
-    detail: ErrorDetails, place: list[int | str]
-) -> str:
-    """What is wrong and what would be right, as one sentence or two."""
-    context: dict[str, Any] = detail.get("ctx", {})
-    given = _quote(detail["input"])
-    match detail["type"]:
-        case "extra_forbidden":
-            key = str(place[-1]) if place else ""
-            return f"Unknown key.{did_you_mean(key, _keys())}"
-        case "missing":
-            return "Required, but missing."
-        case "literal_error":
-            return f"Must be {context['expected']}, not {given}."
-        case "union_tag_invalid":
-            return f"Must have as type one of {context['expected_tags']}, not {context['tag']!r}."
-        case "union_tag_not_found":
-            return 'Must be an object with a "type".'
-        case "float_type" | "float_parsing" | "int_type":
-            return f"Must be a number, not {given}."
-        case "finite_number":
-            return "Must be a finite number."
-        case "string_type":
-            return f"Must be a string, not {given}."
-        case "bool_type":
-            return f"Must be true or false, not {given}."
-        case "tuple_type" | "list_type":
-            return f"Must be a list, not {given}."
-        case "dict_type" | "model_type" | "model_attributes_type":
-            return f"Must be an object, not {given}."
-        case "greater_than":
-            return f"Must be greater than {context['gt']:g}, not {given}."
-        case "greater_than_equal":
-            return f"Must be at least {context['ge']:g}, not {given}."
-        case "less_than_equal":
-            return f"Must be at most {context['le']:g}, not {given}."
-        case "string_too_short":
-            return "Must not be empty."
-        case "string_too_long":
-            return f"Must have at most {context['max_length']} characters."
-        case "too_short":
-            least, given = context["min_length"], context["actual_length"]
-            return f"Must have at least {least} entries, not {given}."
-        case "too_long":
-            return f"Must have at most {context['max_length']} entries."
-        case "string_pattern_mismatch":
-            return f"Must be a colour such as #rrggbb, not {given}."
-        case _:
-            return f"{detail['msg']}."
+def is_echo(detail: ErrorDetails) -> bool:
+    """Whether a list is only called too short because entries in it are wrong themselves."""
+    return (
+        detail["type"] == "too_short"
+        and isinstance(detail["input"], list)
+        and len(detail["input"]) >= _context(detail)["min_length"]
+    )
 
 
-def _quote(value: object) -> str:
+def _context(detail: ErrorDetails) -> Mapping[str, Any]:
+    return detail.get("ctx", {})
+
+
+def _given(detail: ErrorDetails) -> str:
+    """The offending value as it stands in the document, or what it is where it is long."""
+    value = detail["input"]
+    if detail["type"] == "union_tag_invalid":
+        value = value["type"]
     if isinstance(value, dict):
         return "an object"
     if isinstance(value, list | tuple):
@@ -89,17 +95,3 @@ def _quote(value: object) -> str:
         return {None: "null", True: "true", False: "false"}[value]
     text = f'"{value}"' if isinstance(value, str) else repr(value)
     return text if len(text) <= LONGEST_QUOTE else f"{text[:LONGEST_QUOTE]}…"
-
-
-@lru_cache(maxsize=1)
-def _keys() -> tuple[str, ...]:
-    """Every key that some part of a document has."""
-    parts = [
-        part
-        for module in (model, shapes)
-        for part in vars(module).values()
-        if isinstance(part, type) and issubclass(part, Part) and issubclass(part, BaseModel)
-    ]
-    return tuple(
-        sorted({field.alias or name for part in parts for name, field in part.model_fields.items()})
-    )

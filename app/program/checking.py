@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from itertools import chain
 
-from app.errors import DocumentTooLarge, Fault, InconsistentDocument, pointer
-from app.program.advice import did_you_mean
-from app.program.model import Item, Program
+from app.errors import Fault, InconsistentDocument, pointer
+from app.program.faults import first
+from app.program.hints import Hints
+from app.program.limits import count, refuse_too_many
+from app.program.model import Hyperedge, Item, Program
 from app.program.shapes import Text
 from app.settings import Settings
-
-MOST_FAULTS = 100
-MOST_HINTS = 20
-"""Faults that come with a search for the name that was meant: it looks at all names."""
 
 
 def check(program: Program, settings: Settings) -> None:
@@ -20,43 +19,19 @@ def check(program: Program, settings: Settings) -> None:
 
     Limits come first: a document beyond them is not looked at further.
     """
-    _refuse(DocumentTooLarge, _limits(program, settings))
-    _refuse(
-        InconsistentDocument,
-        (
-            fault
-            for faults in (
-                _item_faults(program),
-                _parent_faults(program, settings),
-                _hyperedge_faults(program),
-                _line_up_faults(program),
-                _view_faults(program),
-            )
-            for fault in faults
-        ),
+    refuse_too_many(count(program), settings)
+    hints = Hints()
+    faults = first(
+        chain(
+            _item_faults(program),
+            _parent_faults(program, settings, hints),
+            _hyperedge_faults(program, hints),
+            _line_up_faults(program, hints),
+            _view_faults(program),
+        )
     )
-
-
-def _refuse(error: type[DocumentTooLarge | InconsistentDocument], found: Iterator[Fault]) -> None:
-    faults = list(found)
-    if len(faults) > MOST_FAULTS:
-        more = len(faults) - MOST_FAULTS
-        faults = [*faults[:MOST_FAULTS], Fault("", f"And {more} more faults.")]
     if faults:
-        raise error(faults)
-
-
-def _limits(program: Program, settings: Settings) -> Iterator[Fault]:
-    attachments = sum(len(hyperedge.attachments) for hyperedge in program.hyperedges)
-    characters = sum(len(item.label or "") for item in program.items)
-    for place, count, most, what in (
-        ("items", len(program.items), settings.max_items, "items"),
-        ("hyperedges", len(program.hyperedges), settings.max_hyperedges, "hyperedges"),
-        ("hyperedges", attachments, settings.max_attachments, "attachments in all"),
-        ("items", characters, settings.max_label_characters, "characters in labels"),
-    ):
-        if count > most:
-            yield Fault(pointer(place), f"{count} {what} are more than the limit of {most}.")
+        raise InconsistentDocument(faults)
 
 
 def _item_faults(program: Program) -> Iterator[Fault]:
@@ -82,14 +57,12 @@ def _item_faults(program: Program) -> Iterator[Fault]:
                 yield Fault(pointer(*here, "direction"), "A direction must not be zero.")
 
 
-def _parent_faults(program: Program, settings: Settings) -> Iterator[Fault]:
+def _parent_faults(program: Program, settings: Settings, hints: Hints) -> Iterator[Fault]:
     numbers = {item.id: number for number, item in reversed(list(enumerate(program.items)))}
-    hints = MOST_HINTS
     depths: dict[str, int] = {}
     for number, item in enumerate(program.items):
         if item.parent is not None and item.parent not in numbers:
-            hint = did_you_mean(item.parent, numbers) if hints > 0 else ""
-            hints -= 1
+            hint = hints.at(item.parent, numbers)
             yield Fault(
                 pointer("items", number, "parent"), f'There is no item "{item.parent}".{hint}'
             )
@@ -118,15 +91,13 @@ def _parent_faults(program: Program, settings: Settings) -> Iterator[Fault]:
                 )
 
 
-def _hyperedge_faults(program: Program) -> Iterator[Fault]:
-    items = {item.id: item for item in program.items}
-    points = {
-        item.id: {point.id for point in item.attachment_points}
-        for item in program.items
-        if item.attachment_points
-    }
+def _hyperedge_faults(program: Program, hints: Hints) -> Iterator[Fault]:
+    points: dict[str, dict[str, None]] = {}
+    for item in program.items:
+        points.setdefault(item.id, {}).update((point.id, None) for point in item.attachment_points)
+    known: set[tuple[str, str | None]] = {(name, None) for name in points}
+    known.update((name, point) for name, of_item in points.items() for point in of_item)
     seen: dict[str, int] = {}
-    hints = MOST_HINTS
     for number, hyperedge in enumerate(program.hyperedges):
         first = seen.setdefault(hyperedge.id, number)
         if first != number:
@@ -134,29 +105,34 @@ def _hyperedge_faults(program: Program) -> Iterator[Fault]:
                 pointer("hyperedges", number, "id"),
                 f'"{hyperedge.id}" is the id of /hyperedges/{first} already; ids must be unique.',
             )
-        ends: set[tuple[str, str | None]] = set()
-        for place, attachment in enumerate(hyperedge.attachments):
-            here = ("hyperedges", number, "attachments", place)
-            if attachment.item not in items:
-                hint = did_you_mean(attachment.item, items) if hints > 0 else ""
-                hints -= 1
-                yield Fault(pointer(*here, "item"), f'There is no item "{attachment.item}".{hint}')
-            elif attachment.point is not None:
-                known = points.get(attachment.item, set())
-                if attachment.point not in known:
-                    hint = did_you_mean(attachment.point, sorted(known))
-                    yield Fault(
-                        pointer(*here, "point"),
-                        f'Item "{attachment.item}" has no attachment point '
-                        f'"{attachment.point}".{hint}',
-                    )
-            end = (attachment.item, attachment.point)
-            if end in ends:
-                yield Fault(pointer(*here), "This hyperedge has the same attachment already.")
-            ends.add(end)
+        ends = {(attachment.item, attachment.point) for attachment in hyperedge.attachments}
+        if len(ends) < len(hyperedge.attachments) or not ends <= known:
+            yield from _attachment_faults(number, hyperedge, points, hints)
 
 
-def _line_up_faults(program: Program) -> Iterator[Fault]:
+def _attachment_faults(
+    number: int, hyperedge: Hyperedge, points: Mapping[str, Mapping[str, None]], hints: Hints
+) -> Iterator[Fault]:
+    """``points`` are the ids of every item's attachment points, in order."""
+    ends: set[tuple[str, str | None]] = set()
+    for place, attachment in enumerate(hyperedge.attachments):
+        here = ("hyperedges", number, "attachments", place)
+        name, point = attachment.item, attachment.point
+        if name not in points:
+            yield Fault(
+                pointer(*here, "item"), f'There is no item "{name}".{hints.at(name, points)}'
+            )
+        elif point is not None and point not in points[name]:
+            yield Fault(
+                pointer(*here, "point"),
+                f'Item "{name}" has no attachment point "{point}".{hints.at(point, points[name])}',
+            )
+        if (name, point) in ends:
+            yield Fault(pointer(*here), "This hyperedge has the same attachment already.")
+        ends.add((name, point))
+
+
+def _line_up_faults(program: Program, hints: Hints) -> Iterator[Fault]:
     items: dict[str, Item] = {item.id: item for item in program.items}
     taken: set[str] = set()
     for number, line_up in enumerate(program.layout.constraints):
@@ -169,7 +145,7 @@ def _line_up_faults(program: Program) -> Iterator[Fault]:
         for place, name in enumerate(line_up.items):
             here = pointer("layout", "constraints", number, "items", place)
             if name not in items:
-                yield Fault(here, f'There is no item "{name}".{did_you_mean(name, items)}')
+                yield Fault(here, f'There is no item "{name}".{hints.at(name, items)}')
             elif items[name].position is not None:
                 yield Fault(here, f'Item "{name}" has a position; it cannot be lined up.')
             if name in taken:

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import hashlib
-import json
 
 from app.program.model import Program
 
 
 def canonical(program: Program) -> bytes:
-    """The program as JSON with sorted keys, no blanks, and without what equals its default.
+    """The program as JSON in UTF-8, without blanks and without what equals its default.
 
-    Key order, 1 for 1.0 and defaults written out make no difference; the order of items does.
+    Keys stand in the model's order, and in `app.program.base.Data` in alphabetical order; numbers
+    are floats, whole or not. So key order, 1 for 1.0 and defaults written out make no difference,
+    the order of items does. In ``data``, which goes out as it came in, 1 and 1.0 differ.
     """
-    document = program.model_dump(mode="json", exclude_defaults=True)
-    return json.dumps(
-        document, sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False
-    ).encode("utf-8", "surrogatepass")
+    return program.model_dump_json(exclude_defaults=True).encode()
 
 
 def digest(program: Program) -> str:

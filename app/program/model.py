@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, Strict
 
-from app.program.base import Color, Data, Id, Label, Part, Vector
+from app.program.base import Color, Data, Id, Label, Many, Part, Tallied, Vector
 from app.program.shapes import Length, Shape
 
 Degrees = Annotated[float, Field(ge=-360_000, le=360_000, allow_inf_nan=False)]
@@ -32,12 +32,12 @@ class Item(Part):
     position: Vector | None = Field(
         None, description="Centre, relative to the parent's centre (a root: to the world)."
     )
-    rotation: tuple[Degrees, Degrees, Degrees] | None = Field(
+    rotation: Annotated[tuple[Degrees, Degrees, Degrees], Strict(strict=False)] | None = Field(
         None, description="Degrees about x, then y, then z, relative to the parent."
     )
     material: MaterialName | None = None
     color: Color | None = None
-    attachment_points: tuple[AttachmentPoint, ...] = ()
+    attachment_points: Many[AttachmentPoint] = ()
     data: Data = Field(
         default_factory=dict, description="The editor's own; handed through to glTF extras."
     )
@@ -56,7 +56,7 @@ class Hyperedge(Part):
     id: Id
     kind: Id | None = None
     label: Label | None = None
-    attachments: tuple[Attachment, ...] = Field(min_length=2)
+    attachments: Many[Attachment] = Field(min_length=2)
     color: Color | None = None
     radius: Length | None = None
     join_height: float | None = Field(
@@ -74,7 +74,7 @@ class LineUp(Part):
     """Siblings without positions that stand in one row or column, in the order given."""
 
     type: Literal["row", "column"]
-    items: tuple[Id, ...] = Field(min_length=2)
+    items: Many[Annotated[Id, Tallied]] = Field(min_length=2)
 
 
 class Layout(Part):
@@ -98,7 +98,7 @@ class Layout(Part):
     clearance: float = Field(
         0.05, ge=0, le=1e5, allow_inf_nan=False, description="Wanted between tubes' surfaces."
     )
-    constraints: tuple[LineUp, ...] = ()
+    constraints: Many[LineUp] = ()
 
 
 class Style(Part):
@@ -130,8 +130,8 @@ class Program(Part):
 
     name: Label | None = None
     notation: str = Field("plain", max_length=100)
-    items: tuple[Item, ...]
-    hyperedges: tuple[Hyperedge, ...] = ()
+    items: Many[Item]
+    hyperedges: Many[Hyperedge] = ()
     layout: Layout = Layout()
     style: Style = Style()
     view: View = View()

@@ -2,84 +2,67 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable
-from typing import Any, TypeVar
+from typing import TypeVar
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, JsonValue, ValidationError
 from pydantic_core import ErrorDetails
 
-from app.errors import Fault, InvalidDocument, UnreadableDocument, pointer
-from app.program.advice import advice
+from app.errors import Fault, InvalidDocument, pointer
+from app.program.advice import advice, is_echo
 from app.program.checking import check
+from app.program.collection import collection_paused
+from app.program.faults import first
+from app.program.hints import Hints
+from app.program.limits import count_entries, refuse_too_many
 from app.program.model import Program
+from app.program.parsing import parse
+from app.program.places import Place, place
+from app.program.tally import Tally
 from app.settings import Settings
 
 Model = TypeVar("Model", bound=BaseModel)
-
-MOST_FAULTS = 100
-"""More than so many faults in one document tell nobody anything."""
 
 
 def read_program(data: bytes, settings: Settings) -> Program:
     """The program in the JSON document ``data``.
 
     Raises `UnreadableDocument` where it is not JSON, `InvalidDocument` where it does not follow the
-    schema, and what `app.program.checking.check` raises; each with every fault found.
+    schema, and what `app.program.checking.check` raises; each with every fault found, up to a
+    hundred. What there is too much of is refused before it is looked at.
     """
-    program = validate(Program, data)
-    check(program, settings)
+    with collection_paused():
+        document = parse(data, settings)
+        refuse_too_many(count_entries(document), settings)
+        program = validate(Program, document)
+        check(program, settings)
     return program
 
 
-def validate(model: type[Model], data: bytes) -> Model:
-    """The JSON document ``data`` as ``model``.
-
-    Raises `UnreadableDocument` or `InvalidDocument` with every fault found.
-    """
+def validate(model: type[Model], document: JsonValue) -> Model:
+    """``document`` as ``model``. Raises `InvalidDocument` with every fault found."""
+    tally = Tally()
     try:
-        return model.model_validate_json(data, strict=True)
+        return model.model_validate(document, context=tally, by_alias=True, by_name=False)
     except ValidationError as error:
-        details = error.errors(include_url=False)
-        if details[0]["type"] == "json_invalid":
-            raise UnreadableDocument([_syntax_fault(details[0])]) from None
-        raise InvalidDocument(_faults(details, data)) from None
+        faults = _faults(model, error.errors(include_url=False))
+        raise InvalidDocument(first(faults, at_least=tally.full)) from None
 
 
-def _syntax_fault(detail: ErrorDetails) -> Fault:
-    reason = str(detail.get("ctx", {}).get("error", detail["msg"]))
-    if "recursion limit" in reason:
-        return Fault("", "Nested too deeply; a program needs no more than some ten levels.")
-    return Fault("", f"Not JSON: {reason}.")
-
-
-def _faults(details: Iterable[ErrorDetails], data: bytes) -> list[Fault]:
-    document = json.loads(data)
-    faults: list[Fault] = []
-    more = 0
+def _faults(model: type[BaseModel], details: list[ErrorDetails]) -> list[Fault]:
+    """One fault for each place; where a union has no member that fits, there are many details."""
+    places: dict[Place, list[ErrorDetails]] = {}
     for detail in details:
-        if len(faults) >= MOST_FAULTS:
-            more += 1
-            continue
-        place = _place(document, detail["loc"])
-        fault = Fault(pointer(*place), advice(detail, place))
-        if fault not in faults:
-            faults.append(fault)
-    if more:
-        faults.append(Fault("", f"And {more} more faults."))
-    return faults
+        if not is_echo(detail):
+            places.setdefault(place(model, detail["loc"]), []).append(detail)
+    hints = Hints()
+    return [
+        Fault(pointer(*where.way, *_tag(found[0])), advice(found, where.keys, hints))
+        for where, found in places.items()
+    ]
 
 
-def _place(document: Any, location: tuple[int | str, ...]) -> list[int | str]:
-    """``location`` without what pydantic adds to it, such as the tag of a union's member."""
-    place: list[int | str] = []
-    here = document
-    for position, part in enumerate(location):
-        last = position == len(location) - 1
-        if isinstance(here, dict) and isinstance(part, str) and (part in here or last):
-            place.append(part)
-            here = here.get(part)
-        elif isinstance(here, list) and isinstance(part, int):
-            place.append(part)
-            here = here[part] if part < len(here) else None
-    return place
+def _tag(detail: ErrorDetails) -> tuple[str, ...]:
+    """The key that says which member of a union is meant, where it says one that does not exist."""
+    if detail["type"] != "union_tag_invalid":
+        return ()
+    return (str(detail["ctx"]["discriminator"]).strip("'"),)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, Strict
 
 from app.program.base import Part
 
 Length = Annotated[float, Field(ge=1e-3, le=1e5, allow_inf_nan=False)]
 """A size in document units: positive, finite, and within what single precision can draw."""
 
-Size = tuple[Length, Length, Length]
+Size = Annotated[tuple[Length, Length, Length], Strict(strict=False)]
 
 
 class Box(Part):

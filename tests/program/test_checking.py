@@ -171,3 +171,49 @@ def test_many_faults_are_cut_with_their_number() -> None:
     with pytest.raises(InconsistentDocument) as raised:
         check(program, SETTINGS)
     assert raised.value.faults[-1] == Fault("", "And 199 more faults.")
+
+
+def test_every_kind_of_contradiction_comes_at_once() -> None:
+    document = {
+        "items": [*items("a", "b", "a"), {"id": "c", "parent": "c"}, {"id": "d", "parent": "z"}],
+        "hyperedges": [edge(("a", "p"), ("b", None)), edge(("b", None), ("b", None))],
+        "layout": {"constraints": [{"type": "row", "items": ["a", "nobody"]}]},
+        "view": {"from": [0, 0, 0]},
+    }
+    assert set(faults(document)) == {
+        "/items/2/id",
+        "/items/3/parent",
+        "/items/4/parent",
+        "/hyperedges/0/attachments/0/point",
+        "/hyperedges/1/id",
+        "/hyperedges/1/attachments/1",
+        "/layout/constraints/0/items/1",
+        "/view/from",
+    }
+
+
+def test_a_document_at_its_limits_passes() -> None:
+    document = {
+        "items": [{"id": "a", "label": "xy"}, {"id": "b", "parent": "a"}],
+        "hyperedges": [edge(("a", None), ("b", None))],
+    }
+    limits = {"max_items": 2, "max_hyperedges": 1, "max_attachments": 2, "max_depth": 2}
+    check(
+        Program.model_validate(document),
+        Settings.model_validate(limits | {"max_label_characters": 2}),
+    )
+
+
+def test_two_circles_are_two_faults_and_what_hangs_on_them_is_none() -> None:
+    parents = {"a": "b", "b": "a", "c": "d", "d": "c", "e": "a"}
+    found = faults({"items": [{"id": name, "parent": other} for name, other in parents.items()]})
+    assert set(found) == {"/items/0/parent", "/items/2/parent"}
+
+
+def test_two_points_of_one_item_are_two_attachments() -> None:
+    points = [{"id": name, "position": [0, 0, 0]} for name in ("p", "q")]
+    document = {
+        "items": [{"id": "a", "attachment_points": points}],
+        "hyperedges": [edge(("a", "p"), ("a", "q"), ("a", None))],
+    }
+    check(Program.model_validate(document), SETTINGS)
