@@ -16,8 +16,6 @@ from tests.service import Service, running_service
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
-pytestmark = pytest.mark.xdist_group("docs")
-
 
 def blocks(language: str) -> list[tuple[str, str]]:
     """The fenced blocks of one language, with the names of their pages."""

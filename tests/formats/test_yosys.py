@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.errors import DocumentError, DocumentTooLarge, InvalidDocument
+from app.formats.netlist_layout import Block, Pin, Side
 from app.formats.yosys import read
 from app.program.model import Item, Program
 from app.program.shapes import Box
@@ -296,7 +297,8 @@ def test_a_constant_stands_just_before_what_it_feeds() -> None:
         for n in range(2, 6)
     }
     at = {item.id: item.position[0] for item in netlist(m={"cells": cells}).items if item.position}
-    assert at["cell:c2"] < at["constant:1"] == pytest.approx(at["cell:c3"]) < at["cell:c4"]
+    assert at["cell:c2"] < at["constant:1"] < at["cell:c4"]
+    assert at["constant:1"] == pytest.approx(at["cell:c3"])
 
 
 def test_remarks_about_the_source_and_black_boxes_are_not_shown() -> None:
@@ -312,10 +314,9 @@ def test_remarks_about_the_source_and_black_boxes_are_not_shown() -> None:
     assert [item.id for item in program.items] == ["cell:c"]
 
 
-def test_a_cell_with_a_hundred_thousand_pins_still_fits_into_a_document() -> None:
-    cell = {"type": "t", "connections": {"A": [2] * 200_000}}
-    program = netlist(m={"cells": {"c": cell}})
-    assert len(program.hyperedges[0].attachments) == 200_000
+def test_a_block_with_very_many_pins_still_fits_into_a_document() -> None:
+    pin = Pin("A", "A", 2, Side.LEFT)
+    assert max(Block("b", "cell", "b", (pin,) * 400_000).size) < 100_000
 
 
 def test_a_ring_of_cells_is_cut_somewhere() -> None:
