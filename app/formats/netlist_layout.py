@@ -26,7 +26,7 @@ SIDE_MARGIN = 0.3
 COLUMN_GAP = 2.6
 """Between columns: where the tubes are seen best."""
 
-ROW_GAP = 0.95
+ROW_GAP = 1.1
 """Between rows: a block's label is on its front, and must not be hidden by the block before it."""
 
 LETTER = 0.27
@@ -123,8 +123,9 @@ def _columns(
     """Numbers of the blocks in each column: module inputs first, module outputs last."""
     kinds = [block.kind for block in blocks]
     anew = [kind in ("input", "constant", "flipflop") for kind in kinds]
-    inner = [0 if kind == "input" else 1 for kind in kinds]
-    depth = depths(inner, anew, drivers, takers)
+    # Constants stand among the cells, so that the first column is the module's inputs alone.
+    least = [0 if kind == "input" else 1 for kind in kinds]
+    depth = depths(least, anew, drivers, takers)
     last = 1 + max(depth)
     nearest = {number: last for number, kind in enumerate(kinds) if kind == "constant"}
     for sources, ends in zip(drivers, takers, strict=True):
