@@ -42,6 +42,7 @@ $(VENV)/bench.done: requirements-bench.lock $(VENV)/dev.done
 	@touch $@
 
 test: check  ## everything that must hold: checks, then all tests
+	$(BIN)/python -m pytest -q --doctest-modules app
 	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 check: setup-dev  ## format, lint, types, import rules
