@@ -37,8 +37,10 @@ $(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json $(VENV)/run
 	cd tests/node && npm ci --no-audit --no-fund --loglevel=error
 	@touch $@
 
-$(VENV)/bench.done: requirements-bench.lock $(VENV)/dev.done
+$(VENV)/bench.done: requirements-bench.lock benchmarks/node/package-lock.json $(VENV)/dev.done
+	tools/system-packages.sh bench
 	$(PIP) install --require-hashes -r requirements-bench.lock
+	cd benchmarks/node && npm ci --no-audit --no-fund --loglevel=error
 	@touch $@
 
 test: check  ## everything that must hold: checks, then all tests
@@ -71,4 +73,4 @@ lock:  ## resolve dependencies anew (needs uv)
 	tools/lock.sh
 
 clean:  ## remove everything that can be made again
-	rm -rf $(VENV) tests/node/node_modules .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks
+	rm -rf $(VENV) tests/node/node_modules benchmarks/node/node_modules .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks

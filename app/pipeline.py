@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
+from functools import partial
+from typing import Literal
 
 import numpy as np
 
@@ -25,24 +27,31 @@ from app.hyperedges.routing import Routing
 from app.notations.loader import load_notation
 from app.output.draft import draw_draft
 from app.output.gltf import write_glb, write_gltf
+from app.output.gltf_packing import Packing
 from app.output.media import SceneFormat
 from app.output.numbers import layout_numbers
+from app.output.shells import refuse_too_many, triangles_of
+from app.output.stl import write_stl
+from app.output.threemf import write_3mf
 from app.placement.place import place
 from app.placement.placement import Placement
 from app.program.digest import canonical
 from app.program.model import Program
 from app.scene.assemble import assemble
+from app.scene.detail import tolerances
 from app.scene.scene import Scene
 from app.settings import Settings
 from app.tubes.patches import patch_pairs, patch_tubes
 from app.tubes.sweep import sweep
 from app.tubes.tubes import Tubes
+from app.tubes.unions import plan_unions, unite
 
 Progress = Callable[[str, float], None]
 """Told what is being done and which share of the whole is done, from 0 to 1."""
 
 TUBE_TOLERANCE = 0.02
-"""How far a mesh may be from its tube, as a share of the thinnest radius: some 16 sides."""
+"""How far a mesh may be from its tube, as a share of the thinnest radius: some 16 sides. Further
+where no picture of the size asked for could show it; see `app.scene.detail`."""
 
 
 def silent(_stage: str, _share: float) -> None:
@@ -87,7 +96,14 @@ def render(
     etag = validator(program, options)
     if is_known(etag, known):
         return Unchanged(etag)
-    scene = make_scene(program, aspect=options.width / options.height, progress=progress)
+    aspect = options.width / options.height
+    if options.format.is_printed and options.parts != "items":
+        bodies = partial(make_bodies, most=settings.max_print_triangles, progress=progress)
+        scene = make_scene(program, aspect, progress, bodies)
+    else:
+        scene = make_scene(program, aspect, progress, height=options.height)
+    if options.format.is_printed:
+        refuse_too_many(triangles_of(scene, options.parts), settings.max_print_triangles)
     progress("writing", 0.6)
     body = _write(scene, options)
     progress("done", 1.0)
@@ -137,15 +153,27 @@ def convert(
     return Answer(body, registry.FORMATS[options.target].media_type, etag, program.name)
 
 
-def make_scene(program: Program, aspect: float, progress: Progress = silent) -> Scene:
-    """Place, route, make tubes, assemble: everything between reading and writing."""
+def make_scene(
+    program: Program,
+    aspect: float,
+    progress: Progress = silent,
+    tubes_of: Callable[[Program, Routing], Tubes] | None = None,
+    height: int | None = None,
+) -> Scene:
+    """Place, route, make tubes, assemble: everything between reading and writing.
+
+    Tubes are no finer than shows in a picture ``height`` pixels high, where there is one.
+    """
     notation = load_notation(program.notation)
     progress("placing items", 0.1)
     placement = place(program, notation)
     progress("laying out hyperedges", 0.2)
     routing = route_program(program, placement)
     progress("making tubes", 0.4)
-    tubes = make_tubes(program, routing)
+    if tubes_of is not None:
+        tubes = tubes_of(program, routing)
+    else:
+        tubes = make_tubes(program, routing, _tolerance(program, placement, routing, aspect, height))
     progress("assembling the scene", 0.5)
     return assemble(program, notation, placement, tubes, aspect)
 
@@ -154,7 +182,7 @@ def route_program(program: Program, placement: Placement) -> Routing:
     """The hyperedges' curves, as the document's ``layout`` wishes."""
     return route(
         placement,
-        curves=program.layout.curves,
+        curves=program.layout.curves or _usual_curves(program),
         fidelity=program.layout.fidelity,
         closest=program.layout.closest,
         clearance=program.layout.clearance,
@@ -162,14 +190,37 @@ def route_program(program: Program, placement: Placement) -> Routing:
     )
 
 
-def make_tubes(program: Program, routing: Routing) -> Tubes:
+def _usual_curves(program: Program) -> Literal["steiner", "prose"]:
+    return "prose" if program.layout.fidelity == "paper" else "steiner"
+
+
+def make_tubes(program: Program, routing: Routing, tolerance: float | Floats) -> Tubes:
     """Tubes around the curves, as the document's ``layout`` wishes."""
     if not program.hyperedges:
         return Tubes.none()
-    tolerance = TUBE_TOLERANCE * float(routing.radii.min())
     if program.layout.tube == "patches":
         return patch_tubes(routing, program.layout.patch_rule, tolerance)
     return sweep(routing, tolerance)
+
+
+def make_bodies(program: Program, routing: Routing, *, most: int, progress: Progress) -> Tubes:
+    """Tubes for printing: each hyperedge one closed body, of ``most`` triangles together."""
+    if not program.hyperedges:
+        return Tubes.none()
+    plan = plan_unions(routing, TUBE_TOLERANCE * routing.radii)
+    refuse_too_many(plan.triangles, most)
+    names = [hyperedge.id for hyperedge in program.hyperedges]
+    return unite(plan, names, lambda share: progress("making tubes", 0.4 + 0.1 * share))
+
+
+def _tolerance(
+    program: Program, placement: Placement, routing: Routing, aspect: float, height: int | None
+) -> float | Floats:
+    """How far meshes may be from their tubes: one for all, or one for each hyperedge, (h,)."""
+    finest = TUBE_TOLERANCE * float(routing.radii.min(initial=1.0))
+    if height is None or not program.hyperedges:
+        return finest
+    return tolerances(placement, routing, program.view, aspect, height, finest)
 
 
 def validator(program: Program, options: object) -> str:
@@ -191,8 +242,12 @@ def _join_heights(program: Program) -> Floats:
 def _write(scene: Scene, options: RenderOptions) -> bytes:
     match options.format:
         case SceneFormat.GLB:
-            return write_glb(scene)
+            return write_glb(scene, Packing(options.compress, options.merge))
         case SceneFormat.GLTF:
-            return write_gltf(scene)
+            return write_gltf(scene, Packing(options.compress, options.merge))
         case SceneFormat.PNG:
             return draw_draft(scene, options.width, options.height)
+        case SceneFormat.STL:
+            return write_stl(scene, options.parts, options.scale)
+        case SceneFormat.THREE_MF:
+            return write_3mf(scene, options.parts, options.scale)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Sees to the system packages that Tubeloom draws with: installs them when root with apt, otherwise
-# says which command does. `system-packages.sh test` sees to what the tests need besides.
+# says which command does. `system-packages.sh test` sees to what the tests need besides, and
+# `system-packages.sh bench` to what is measured beside Tubeloom.
 set -euo pipefail
 
 has_library() { ldconfig -p 2>/dev/null | grep -q "$1"; }
@@ -11,6 +12,8 @@ if [ "${1:-}" = test ]; then
   has_library libOSMesa.so || lacks+=(osmesa)
   has_library libEGL.so.1 && has_library libEGL_mesa || lacks+=(egl)
   command -v node >/dev/null && command -v npm >/dev/null || lacks+=(node)
+elif [ "${1:-}" = bench ]; then
+  command -v neato >/dev/null && command -v sfdp >/dev/null || lacks+=(graphviz)
 elif ! has_library libOSMesa.so && ! has_library libEGL_mesa; then
   lacks+=(osmesa)
 fi
@@ -28,6 +31,7 @@ for part in "${lacks[@]}"; do
     # Mesa 25.1 and later have no OSMesa; EGL draws there.
     osmesa) if [ $apt = no ] || has_package libosmesa6; then packages+=(libosmesa6); else packages+=(libegl1 libegl-mesa0 libgl1); fi ;;
     egl) packages+=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri) ;;
+    graphviz) packages+=(graphviz) ;;
     node) packages+=(nodejs npm) ;;
   esac
 done
@@ -35,6 +39,6 @@ done
 if [ $apt = yes ]; then
   DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}"
 else
-  echo "This machine lacks system packages; PNG pictures (or some tests) need them. Please run:" >&2
+  echo "This machine lacks system packages; PNG pictures (or some tests or benchmarks) need them. Please run:" >&2
   echo "  sudo apt-get install ${packages[*]}" >&2
 fi

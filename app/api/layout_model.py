@@ -56,14 +56,14 @@ class Segment(BaseModel):
 
 
 class Join(BaseModel):
-    """Where three segments meet with one tangent."""
+    """Where three segments meet with one tangent, or two, at a bend."""
 
     position: Triple
     tangent: Triple
 
 
 class RoutedHyperedge(BaseModel):
-    """A hyperedge's curves, in the order in which CURVES makes them."""
+    """A hyperedge's curves, the paper's in the order in which CURVES makes them."""
 
     id: str
     join_plane: float | None = Field(description="Height z of the joins.")
@@ -73,10 +73,48 @@ class RoutedHyperedge(BaseModel):
     joins: list[Join]
 
 
+class Contact(BaseModel):
+    """The nearest place of two hyperedges, or of one and an item that it does not attach to."""
+
+    hyperedges: list[str]
+    item: str | None
+    place: Triple
+    distance: float = Field(description="Between the surfaces, a proven lower bound.")
+
+
+class OwnContact(BaseModel):
+    """Where a hyperedge touches itself, beyond its joins."""
+
+    hyperedge: str
+    place: Triple
+    distance: float
+
+
+class Pinch(BaseModel):
+    """A segment that bends more tightly than 1.5 times its tube's radius."""
+
+    hyperedge: str
+    segment: int
+    radius_of_curvature: float
+
+
+class Clearance(BaseModel):
+    """What is proven about distances; own contacts and pinches do not decide ``certified``."""
+
+    required: float
+    certified: bool
+    minimum: float = Field(description="No two surfaces are nearer; a proven lower bound.")
+    nearest: Contact | None
+    conflicts: list[Contact]
+    own_contacts: list[OwnContact]
+    pinches: list[Pinch]
+
+
 class LayoutNumbers(BaseModel):
-    """Where everything is."""
+    """Where everything is, and whether it is clear of everything else."""
 
     model_config = ConfigDict(title="Layout")
 
     items: list[PlacedItem]
     hyperedges: list[RoutedHyperedge]
+    clearance: Clearance | None = Field(description="Null where layout.clearance is null.")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from app.errors import UnknownName
-from app.formats import tubeloom, yosys
+from app.formats import hif, tubeloom, yosys
 from app.program.model import Program
 from app.program.reading import read_program
 from app.settings import Settings
@@ -55,6 +55,15 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
                 ".json",
                 yosys.read,
                 None,
+            ),
+            Format(
+                "hif",
+                "Hypergraph (HIF)",
+                "The hypergraph interchange format: nodes, edges, and which node is in which edge.",
+                "application/vnd.hif+json",
+                ".json",
+                hif.read,
+                hif.write,
             ),
         )
     }

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from hashlib import sha256
 
 from app.errors import DocumentTooLarge, Fault, InconsistentDocument, pointer
 from app.formats.cell_kinds import kind_of, plain_type
+from app.formats.names import distinct, short
 from app.formats.netlist import Bit, Cell, Module, Netlist, bit_names
 from app.formats.netlist_layout import Block, Pin, Side, arrange
 from app.program.checking import check
@@ -31,10 +31,6 @@ CLOCK_PORTS = ("CLK", "CK", "CLOCK")
 
 NOTES = ("$scopeinfo",)
 """Types of cells that carry remarks about the source and join nothing."""
-
-LONGEST_LABEL = 40
-LONGEST_NAME = 140
-"""Letters of a name that go into an id."""
 
 
 def read(data: bytes, settings: Settings) -> Program:
@@ -84,7 +80,7 @@ def _program(name: str, module: Module) -> Program:
             nets[pin.bit].append((block, pin))
     joined = {bit: pins for bit, pins in nets.items() if len(pins) > 1}
     return Program(
-        name=_short(name, LONGEST_LABEL),
+        name=short(name),
         notation="netlist",
         items=tuple(arrange(blocks, list(joined.values()))),
         hyperedges=tuple(_hyperedges(module, joined)),
@@ -98,7 +94,7 @@ def _hyperedges(module: Module, nets: Mapping[Bit, Net]) -> Iterator[Hyperedge]:
         yield Hyperedge(
             id=f"constant:{bit}" if constant else f"net:{bit}",
             kind="clock" if not constant and any(_is_clocked(*end) for end in pins) else "net",
-            label=_short(str(bit) if constant else names.get(bit, f"net {bit}"), LONGEST_LABEL),
+            label=short(str(bit) if constant else names.get(bit, f"net {bit}")),
             attachments=tuple(Attachment(item=block.id, point=pin.id) for block, pin in pins),
         )
 
@@ -117,11 +113,11 @@ def _ports(module: Module) -> Iterator[Block]:
         side = Side.RIGHT if gives else Side.LEFT
         names = bit_names(name, len(port.bits), port.offset, port.upto)
         yield Block(
-            id=f"port:{_distinct(name)}",
+            id=f"port:{distinct(name)}",
             kind="input" if gives else "output",
-            label=_short(name, LONGEST_LABEL),
+            label=short(name),
             pins=tuple(
-                Pin(_distinct(full), name, bit, side)
+                Pin(distinct(full), name, bit, side)
                 for full, bit in zip(names, port.bits, strict=True)
             ),
             data={"port": name, "direction": port.direction},
@@ -132,9 +128,9 @@ def _cells(module: Module) -> Iterator[Block]:
     for name, cell in module.cells.items():
         if cell.type not in NOTES:
             yield Block(
-                id=f"cell:{_distinct(name)}",
+                id=f"cell:{distinct(name)}",
                 kind=kind_of(cell.type),
-                label=_short(plain_type(cell.type), LONGEST_LABEL),
+                label=short(plain_type(cell.type)),
                 pins=tuple(_pins(cell)),
                 data={
                     "cell": name,
@@ -155,7 +151,7 @@ def _pins(cell: Cell) -> Iterator[Pin]:
             while full != port and full in taken:
                 full += "'"
             taken.add(full)
-            yield Pin(_distinct(full), port, bit, side)
+            yield Pin(distinct(full), port, bit, side)
 
 
 def _constants(blocks: Iterable[Block]) -> list[Block]:
@@ -182,14 +178,3 @@ def _net_names(module: Module) -> dict[Bit, str]:
             rank = (bool(net.hide_name), len(full), full)
             best[bit] = min(best.get(bit, rank), rank)
     return {bit: rank[2] for bit, rank in best.items()}
-
-
-def _short(text: str, length: int) -> str:
-    return text if len(text) <= length else f"{text[: length - 1]}…"
-
-
-def _distinct(name: str) -> str:
-    """A name that is short enough for an id, and still no other's."""
-    if len(name) <= LONGEST_NAME:
-        return name
-    return f"{name[:LONGEST_NAME]}…{sha256(name.encode()).hexdigest()[:16]}"

@@ -31,15 +31,20 @@ PEAK = 0.75
 """A curve between two attachments reaches this share of its join plane's height above them."""
 
 
-def choose_join_planes(placement: Placement, clearance: float, join_heights: Floats) -> Floats:
+def choose_join_planes(
+    placement: Placement, clearance: float | None, join_heights: Floats
+) -> Floats:
     """Join planes (h,), world z: ``join_heights`` (h,) where they are numbers, else chosen.
 
     Levels lie as far apart as makes the peaks of curves between two attachments clear each other.
-    Hyperedges whose footprints overlap get different levels, unless more than `LEVELS` do.
+    Hyperedges whose footprints overlap get different levels, unless more than `LEVELS` do; without
+    a ``clearance`` nobody looks whether they overlap, and each is as high as looks right.
     """
     chosen = np.isnan(join_heights)
     if not chosen.any():
         return join_heights.copy()
+    is_alone = clearance is None
+    clearance = clearance or 0.0
     starts = placement.attachment_starts
     at = placement.attachment_positions
     lows = np.minimum.reduceat(at, starts[:-1], axis=0)
@@ -48,6 +53,8 @@ def choose_join_planes(placement: Placement, clearance: float, join_heights: Flo
     spacing = (2.0 * float(radii.max()) + clearance) / PEAK
     footprints = _rectangles(lows, highs, radii + clearance / 2.0)
     wished = _wished_heights(placement, clearance, lows, highs, footprints)
+    if is_alone:
+        return np.where(chosen, wished, join_heights)
     wishes = _levels(np.where(chosen, wished, join_heights) / spacing, chosen)
     given = np.ceil(np.where(chosen, 0.0, join_heights) / spacing).astype(np.int64)
     tops = np.where(chosen, wishes + LEVELS - 1, given)

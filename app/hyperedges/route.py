@@ -1,4 +1,4 @@
-"""From a placement to a routing: a join plane for each hyperedge, then its curves."""
+"""From a placement to a routing: short trees woven clear of each other, or the paper's CURVES."""
 
 from __future__ import annotations
 
@@ -10,29 +10,44 @@ from app.arrays import Floats
 from app.hyperedges.curves import join_starts, lay_out, segment_starts
 from app.hyperedges.join_planes import choose_join_planes
 from app.hyperedges.routing import Routing
+from app.hyperedges.weaving.weave import Progress
+from app.hyperedges.woven import Previous, lay_all, weave_all
 from app.placement.placement import Placement
 
 
 def route(
     placement: Placement,
     *,
-    curves: Literal["prose", "symbolic"] = "prose",
+    curves: Literal["steiner", "prose", "symbolic"] = "steiner",
     fidelity: Literal["best", "paper"] = "best",
     closest: Literal["space", "plane"] = "space",
-    clearance: float = 0.05,
+    clearance: float | None = 0.05,
     join_heights: Floats | None = None,
+    previous: Previous | None = None,
+    progress: Progress = lambda _share: None,
 ) -> Routing:
     """Curves of all hyperedges of a placement.
 
-    ``curves`` is the reading of the paper; ``fidelity`` says whether exactly its curves are wanted
-    ("paper") or ones that leave their items squarely ("best"); ``closest`` whether CLOSEST measures
-    in three dimensions or as seen from above. ``join_heights`` (h,) are join planes, NaN where they
-    are to be chosen with ``clearance`` in mind. Raises `ValueError` where a hyperedge has fewer
-    than two attachments.
+    ``curves`` says whether they are short trees (``steiner``) or follow one of the two readings of
+    the paper. Short trees are woven so that tubes keep ``clearance`` from each other and from items
+    wherever that is possible, and so that no curve bends more tightly than 1.5 times its tube's
+    radius; without a clearance (None) each is laid for itself. With a ``previous`` layout whatever
+    is not new stays where it is, unless it is in the way.
+
+    Of the paper's curves, ``fidelity`` says whether exactly they are wanted ("paper") or ones that
+    leave their items squarely ("best"); ``closest`` whether CLOSEST measures in three dimensions or
+    as seen from above. They get join planes with ``clearance`` in mind, but nobody moves them.
+
+    ``join_heights`` (h,) are join planes, NaN where they are to be chosen. ``progress`` is told
+    shares of the work. Raises `ValueError` where a hyperedge has fewer than two attachments.
     """
     starts = placement.attachment_starts
     if join_heights is None:
         join_heights = np.full(len(starts) - 1, np.nan)
+    if curves == "steiner":
+        if clearance is None:
+            return lay_all(placement, join_heights)
+        return weave_all(placement, clearance, join_heights, previous, progress)
     join_planes = choose_join_planes(placement, clearance, join_heights)
     laid = lay_out(
         placement.attachment_positions,

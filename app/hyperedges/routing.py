@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from app.arrays import Floats, Indices
 
 
@@ -11,16 +13,17 @@ from app.arrays import Floats, Indices
 class Routing:
     """Segments and joins of h hyperedges; those of one hyperedge lie together.
 
-    A hyperedge of N attachments has 2(N - 2) + 1 segments and N - 2 joins. Its segments are
-    ``segment_starts[k]`` to ``segment_starts[k + 1]``, in the order in which CURVES makes them;
-    its joins likewise by ``join_starts`` (both (h + 1,)).
+    A hyperedge of N attachments has N - 2 joins of three segments, and 2(N - 2) + 1 segments: one
+    more for each of its bends, joins of two segments at which a curve goes around something. The
+    paper's curves have no bends. Segments of hyperedge k are ``segment_starts[k]`` to
+    ``segment_starts[k + 1]``; its joins, then its bends, likewise by ``join_starts`` (both
+    (h + 1,)).
 
     ``control_points`` (s, 4, 3), document units, z up. ``segment_ends`` (s, 2): what a segment
     begins and ends at, numbered within its hyperedge: 0 to N - 1 are its attachments in the order
-    of the document, N to 2N - 3 its joins in the order in which CURVES makes them.
-    ``join_positions`` (j, 3); ``join_tangents`` (j, 3), unit vectors common to the three segments
-    of a join, in the sense of the segment that leaves it. ``join_planes`` (h,), world z.
-    ``radii`` (h,).
+    of the document, then come its joins (the paper's in the order in which CURVES makes them) and
+    its bends. ``join_positions`` (j, 3); ``join_tangents`` (j, 3), unit vectors common to all
+    segments of a join. ``join_planes`` (h,), world z. ``radii`` (h,).
     """
 
     control_points: Floats
@@ -31,3 +34,8 @@ class Routing:
     join_starts: Indices
     join_planes: Floats
     radii: Floats
+
+    @property
+    def attachment_counts(self) -> Indices:
+        """How many attachments each hyperedge has, (h,): a tree's leaves."""
+        return np.diff(self.segment_starts) - np.diff(self.join_starts) + 1

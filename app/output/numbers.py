@@ -9,25 +9,36 @@ from pydantic_core import to_json
 
 from app.arrays import Floats, Indices
 from app.hyperedges.routing import Routing
+from app.output.clearance_numbers import Verdict, clearance_numbers
 from app.placement.placement import Placement
 from app.program.model import Program
 
 
 def layout_numbers(
-    program: Program, placement: Placement, routing: Routing, patches: Floats | None
+    program: Program,
+    placement: Placement,
+    routing: Routing,
+    patches: Floats | None,
+    verdict: Verdict | None,
 ) -> bytes:
     """JSON with world positions (z up, document units) and quaternions x, y, z, w.
 
     Every number has as many digits as it takes to read the same float back. ``patches``
-    (s, 2, 4, 4, 3), top and bottom of each segment, are written where they are given.
+    (s, 2, 4, 4, 3), top and bottom of each segment, are written where they are given; without a
+    ``verdict`` the clearance is null.
     """
     # Entry by entry: all as dictionaries at once would take many times the memory of the text.
     items = b",".join(map(_json, _items(program, placement)))
     hyperedges = b",".join(map(_json, _hyperedges(program, placement, routing, patches)))
-    return b'{"items":[%b],"hyperedges":[%b]}' % (items, hyperedges)
+    clearance = None if verdict is None else clearance_numbers(program, routing, verdict)
+    return b'{"items":[%b],"hyperedges":[%b],"clearance":%b}' % (
+        items,
+        hyperedges,
+        _json(clearance),
+    )
 
 
-def _json(entry: dict[str, Any]) -> bytes:
+def _json(entry: dict[str, Any] | None) -> bytes:
     return to_json(entry, inf_nan_mode="null")
 
 

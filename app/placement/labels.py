@@ -33,15 +33,16 @@ def label_place(
     """
     letters = Text(text, height, LABEL_DEPTH)
     tall = label.top - label.bottom
+    ink = (label.width, tall, LABEL_DEPTH)
     width, depth, rise = size
     match solid:
         case Tray(wall=wall, floor=floor):
             x = -width / 2 + wall + margin + label.width / 2
             y = 0.0 if side else -depth / 2 + wall + margin + tall / 2
-            return LabelPlace(letters, (x, y, -rise / 2 + floor), UNTURNED)
+            return LabelPlace(letters, (x, y, -rise / 2 + floor), UNTURNED, ink)
         case Box():
             # Letters without descenders sit as high as those with.
-            return LabelPlace(letters, (0.0, -depth / 2, 0.0), UPRIGHT)
+            return LabelPlace(letters, (0.0, -depth / 2, 0.0), UPRIGHT, ink)
         case _:
             y = -depth / 2 - BEFORE - LABEL_DEPTH / 2
-            return LabelPlace(letters, (0.0, y, -rise / 2 + tall / 2), UPRIGHT)
+            return LabelPlace(letters, (0.0, y, -rise / 2 + tall / 2), UPRIGHT, ink)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from app.arrays import Floats, Indices
 from app.notations.notation import Notation
 from app.placement.contents import Place, Sized, measure
 from app.placement.family import Family, family
@@ -34,10 +35,10 @@ def place(program: Program, notation: Notation) -> Placement:
         sizes=np.array([each.size for each in sized], dtype=np.float64).reshape(-1, 3),
         solids=tuple(each.solid for each in sized),
         labels=tuple(_label(each) for each in sized),
-        attachment_positions=np.array(positions, dtype=np.float64).reshape(-1, 3),
-        attachment_directions=np.array(directions, dtype=np.float64).reshape(-1, 3),
-        attachment_starts=np.array(starts, dtype=np.int64),
-        attachment_items=np.array(owners, dtype=np.int64),
+        attachment_positions=positions,
+        attachment_directions=directions,
+        attachment_starts=starts,
+        attachment_items=owners,
         radii=np.array(
             [
                 hyperedge.radius or notation.hyperedge_style(hyperedge.kind).radius
@@ -100,24 +101,38 @@ def _attachments(
     sized: Sequence[Sized],
     centers: Sequence[Vector],
     turns: Sequence[Quaternion],
-) -> tuple[list[Vector], list[Vector], list[int], list[int]]:
+) -> tuple[Floats, Floats, Indices, Indices]:
+    """Positions (a, 3), directions (a, 3), where each hyperedge's start (h + 1,), and items (a,).
+
+    Many hyperedges may end at one attachment point: its place is found once.
+    """
+    ends = [
+        (attachment.item, attachment.point)
+        for hyperedge in program.hyperedges
+        for attachment in hyperedge.attachments
+    ]
+    known: dict[tuple[str, str | None], int] = {}
+    used = np.array([known.setdefault(end, len(known)) for end in ends], dtype=np.int64)
     numbers = {item.id: number for number, item in enumerate(program.items)}
-    known: dict[int, dict[str | None, tuple[Vector, Vector]]] = {}
+    points: dict[int, dict[str | None, tuple[Vector, Vector]]] = {}
     positions: list[Vector] = []
     directions: list[Vector] = []
     owners: list[int] = []
-    starts = [0]
-    for hyperedge in program.hyperedges:
-        for attachment in hyperedge.attachments:
-            number = numbers[attachment.item]
-            each = sized[number]
-            if number not in known:
-                known[number] = points_of(each.item, each.solid, each.size)
-            position, direction = known[number][attachment.point]
-            moved = turned(turns[number], position)
-            x, y, z = (a + b for a, b in zip(centers[number], moved, strict=True))
-            positions.append((x, y, z))
-            directions.append(turned(turns[number], direction))
-            owners.append(number)
-        starts.append(len(positions))
-    return positions, directions, starts, owners
+    for name, point in known:
+        number = numbers[name]
+        each = sized[number]
+        if number not in points:
+            points[number] = points_of(each.item, each.solid, each.size)
+        position, direction = points[number][point]
+        x, y, z = turned(turns[number], position)
+        a, b, c = centers[number]
+        positions.append((a + x, b + y, c + z))
+        directions.append(turned(turns[number], direction))
+        owners.append(number)
+    counts = [len(hyperedge.attachments) for hyperedge in program.hyperedges]
+    return (
+        np.array(positions, dtype=np.float64).reshape(-1, 3)[used],
+        np.array(directions, dtype=np.float64).reshape(-1, 3)[used],
+        np.concatenate([[0], np.cumsum(counts, dtype=np.int64)]),
+        np.array(owners, dtype=np.int64)[used],
+    )

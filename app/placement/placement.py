@@ -5,16 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from app.arrays import Floats, Indices
-from app.solids.solid import Solid, Text
+from app.solids.solid import Size, Solid, Text
 
 
 @dataclass(frozen=True, slots=True)
 class LabelPlace:
-    """A label's solid letters, and where they are in their item's own axes."""
+    """A label's solid letters, of ``size``, and where they are in their item's own axes."""
 
     text: Text
     position: tuple[float, float, float]
     rotation: tuple[float, float, float, float]
+    size: Size
 
 
 @dataclass(frozen=True, slots=True, eq=False)

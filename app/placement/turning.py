@@ -5,6 +5,10 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
+import numpy as np
+
+from app.arrays import Floats
+
 Quaternion: TypeAlias = tuple[float, float, float, float]
 Vector: TypeAlias = tuple[float, float, float]
 
@@ -65,3 +69,21 @@ def reach(quaternion: Quaternion, size: Vector) -> Vector:
         for axis in range(3)
     )
     return (x, y, z)
+
+
+def matrices(quaternions: Floats) -> Floats:
+    """Rotation matrices (…, 3, 3) of unit quaternions (…, 4): they turn columns.
+
+    >>> matrices(np.array([0.0, 0.0, 0.0, 1.0])).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    """
+    q = np.asarray(quaternions, dtype=np.float64)
+    x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    found = np.empty((*q.shape[:-1], 3, 3))
+    found[..., 0, 0] = 1 - 2 * (y * y + z * z)
+    found[..., 1, 1] = 1 - 2 * (x * x + z * z)
+    found[..., 2, 2] = 1 - 2 * (x * x + y * y)
+    found[..., 0, 1], found[..., 1, 0] = 2 * (x * y - z * w), 2 * (x * y + z * w)
+    found[..., 0, 2], found[..., 2, 0] = 2 * (x * z + y * w), 2 * (x * z - y * w)
+    found[..., 1, 2], found[..., 2, 1] = 2 * (y * z - x * w), 2 * (y * z + x * w)
+    return found

@@ -27,6 +27,7 @@ def check(program: Program, settings: Settings) -> None:
             _parent_faults(program, settings, hints),
             _hyperedge_faults(program, hints),
             _line_up_faults(program, hints),
+            _layout_faults(program),
             _view_faults(program),
         )
     )
@@ -151,6 +152,14 @@ def _line_up_faults(program: Program, hints: Hints) -> Iterator[Fault]:
             if name in taken:
                 yield Fault(here, f'Item "{name}" is lined up already.')
             taken.add(name)
+
+
+def _layout_faults(program: Program) -> Iterator[Fault]:
+    if program.layout.curves == "steiner" and program.layout.fidelity == "paper":
+        yield Fault(
+            pointer("layout", "curves"),
+            'The paper has no "steiner" curves: leave them out, or take fidelity "best".',
+        )
 
 
 def _view_faults(program: Program) -> Iterator[Fault]:

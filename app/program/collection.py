@@ -1,4 +1,4 @@
-"""Python's collector of circular garbage, out of the way while a document is read."""
+"""Python's collector of circular garbage, out of the way of large documents."""
 
 from __future__ import annotations
 

@@ -80,11 +80,15 @@ class LineUp(Part):
 class Layout(Part):
     """How places and curves are found."""
 
-    curves: Literal["prose", "symbolic"] = Field(
-        "prose", description="Which reading of the paper's CURVES (its words or its symbols)."
+    curves: Literal["steiner", "prose", "symbolic"] | None = Field(
+        None,
+        description="'steiner': short trees, woven clear of each other; the default but with "
+        "fidelity 'paper'. 'prose', 'symbolic': the paper's CURVES by its words or its symbols.",
     )
     fidelity: Literal["best", "paper"] = Field(
-        "best", description="'paper': exactly its curves. 'best': tubes leave items squarely."
+        "best",
+        description="'paper': exactly its curves ('prose' by default). 'best': tubes leave items "
+        "squarely.",
     )
     closest: Literal["space", "plane"] = Field(
         "space", description="Whether CLOSEST measures in three dimensions or seen from above."
@@ -95,8 +99,12 @@ class Layout(Part):
     patch_rule: Literal["paper", "fitted"] = Field(
         "paper", description="Where patch control points go: by the paper, or fitted to the tube."
     )
-    clearance: float = Field(
-        0.05, ge=0, le=1e5, allow_inf_nan=False, description="Wanted between tubes' surfaces."
+    clearance: float | None = Field(
+        0.05,
+        ge=0,
+        le=1e5,
+        allow_inf_nan=False,
+        description="Wanted between tubes' surfaces, and from items; null: do not look.",
     )
     constraints: Many[LineUp] = ()
 

@@ -10,11 +10,11 @@ import numpy as np
 from app.arrays import Singles
 from app.notations.notation import ItemStyle, Notation
 from app.placement.placement import LabelPlace, Placement
+from app.placement.turning import matrices
 from app.program.model import Item, Program
 from app.scene.color import difference, srgb_of
 from app.scene.materials import make_material
 from app.scene.palette import VANISHING
-from app.scene.rotation import matrices
 from app.scene.scene import Material, Node, Primitive
 from app.solids.mesh import Mesh
 from app.solids.meshing import mesh_of

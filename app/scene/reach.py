@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import Floats
-from app.scene.rotation import matrices
+from app.placement.turning import matrices
 from app.scene.scene import Node
 
 _CORNERS = np.array([[i >> 2 & 1, i >> 1 & 1, i & 1] for i in range(8)])
@@ -53,18 +53,29 @@ class Reach:
         Nodes are asked in the order in which their boxes promise, until no box promises more
         than what was found: few are.
         """
-        promises = (self.corners @ direction).max(axis=1)
-        best, found = -np.inf, self.corners[0, 0]
-        for index in np.argsort(-promises, kind="stable"):
+        promises = (self.corners.reshape(-1, 3) @ direction).reshape(-1, 8).max(axis=1)
+        first = int(promises.argmax())
+        best, found = self._asked(first, direction)
+        promises[first] = -np.inf
+        promising = np.flatnonzero(promises > best)
+        for index in promising[np.argsort(-promises[promising], kind="stable")].tolist():
             if promises[index] <= best:
                 break
-            node = self.nodes[index]
-            own = direction @ self.rotations[index]
-            for primitive in node.primitives:
-                vertices = primitive.mesh.vertices
-                vertex = vertices[int(np.argmax(vertices @ own))].astype(np.float64)
-                position = self.rotations[index] @ vertex + node.translation
-                reached = float(position @ direction)
-                if reached > best:
-                    best, found = reached, position
-        return np.asarray(found)
+            reached, position = self._asked(index, direction)
+            if reached > best:
+                best, found = reached, position
+        return found
+
+    def _asked(self, index: int, direction: Floats) -> tuple[float, Floats]:
+        """How far a node reaches, and with which vertex."""
+        node, rotation = self.nodes[index], self.rotations[index]
+        own = direction @ rotation
+        best, found = -np.inf, self.corners[index, 0]
+        for primitive in node.primitives:
+            vertices = primitive.mesh.vertices
+            vertex = vertices[int(np.argmax(vertices @ own))].astype(np.float64)
+            position = rotation @ vertex + node.translation
+            reached = float(position @ direction)
+            if reached > best:
+                best, found = reached, position
+        return best, found

@@ -26,16 +26,10 @@ def _box(box: Box) -> Mesh:
 
 
 def _tray(tray: Tray) -> Mesh:
-    """Round corners and a soft rim.
-
-    Walls are held below half the smaller side and the floor below the height: however thick they
-    are to be, a hollow remains.
-    """
+    """Round corners and a soft rim."""
     x, y, z = (size / 2 for size in tray.size)
-    # One and a half walls outside leave half a wall inside: both corners look rounded.
-    bend = min(1.5 * tray.wall, 0.98 * min(x, y))
-    wall = min(tray.wall, 0.8 * bend)
-    floor = min(tray.floor, 0.9 * 2 * z) - z
+    bend, wall, floor = hollow(tray)
+    floor -= z
     edge, segments = rounding(0.4 * wall, limit=min(wall, z - floor, 2 * z), reach=max(x, y, z))
     profile = np.concatenate(
         [
@@ -49,3 +43,15 @@ def _tray(tray: Tray) -> Mesh:
         ]
     )
     return turn(rectangle(x - bend, y - bend, segments and segments + 1), profile)
+
+
+def hollow(tray: Tray) -> tuple[float, float, float]:
+    """Radius of a tray's corners outside, thickness of its walls and of its floor.
+
+    Walls are held below half the smaller side and the floor below the height: however thick they
+    are to be, a hollow remains.
+    """
+    x, y, z = (size / 2 for size in tray.size)
+    # One and a half walls outside leave half a wall inside: both corners look rounded.
+    bend = min(1.5 * tray.wall, 0.98 * min(x, y))
+    return bend, min(tray.wall, 0.8 * bend), min(tray.floor, 0.9 * 2 * z)

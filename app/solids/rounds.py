@@ -17,6 +17,9 @@ SIDES = 32
 SHAFT = 0.45
 """Radius of an arrow's shaft, of its head's."""
 
+HEAD = 2.4
+"""Length of an arrow's head, of its radius, where the arrow is not too short."""
+
 
 def round_mesh(solid: Sphere | Cylinder | Cone | Arrow) -> Mesh:
     """The mesh of a solid with an axis of revolution."""
@@ -62,7 +65,7 @@ def _cone(cone: Cone) -> Mesh:
 def _arrow(arrow: Arrow) -> Mesh:
     """A shaft and a head a little longer than wide, or half as long as the arrow if it is short."""
     radius, end = arrow.radius, arrow.length / 2
-    neck = end - min(2.4 * radius, end)
+    neck = end - min(HEAD * radius, end)
     shaft = SHAFT * radius
     edge, segments = rounding(
         0.15 * shaft, limit=min(2 * shaft, neck + end), reach=max(end, radius)

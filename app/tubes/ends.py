@@ -20,8 +20,7 @@ class Ends:
     """Both ends of s segments.
 
     ``positions`` and unit ``axes`` (s, 2, 3); ``senses`` (s, 2) are 1.0 where the segment runs
-    along its axis, -1.0 where it runs against it, which only the last segment of a hyperedge does,
-    where it ends at a join that it leaves. The three segments of a join have the same position and
+    along its axis, -1.0 where it runs against it. All segments of a join have the same position and
     axis to the bit. ``free`` (s, 2) is true at attachments. ``tiny`` (s,) is the squared length
     below which a difference of control points has no direction.
     """
@@ -57,6 +56,7 @@ def ends_of(routing: Routing, hyperedges: Indices) -> Ends:
         routing.join_positions,
         routing.join_tangents,
         routing.join_starts,
+        routing.attachment_counts,
         positions,
         axes,
         senses,
@@ -74,6 +74,7 @@ def _fill_ends(
     join_positions: Floats,
     join_tangents: Floats,
     join_starts: Indices,
+    attachment_counts: Indices,
     positions: Floats,
     axes: Floats,
     senses: Floats,
@@ -83,7 +84,7 @@ def _fill_ends(
     for s in range(len(control_points)):
         tiny[s] = _tiny(control_points, s)
         first_join = join_starts[hyperedges[s]]
-        attachments = join_starts[hyperedges[s] + 1] - first_join + 2
+        attachments = attachment_counts[hyperedges[s]]
         for end in range(2):
             _own_tangent(control_points, s, end, tiny[s], axes)
             senses[s, end] = 1.0

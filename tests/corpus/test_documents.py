@@ -14,7 +14,11 @@ from app.settings import Settings
 ROOT = Path(__file__).parents[2]
 DOCUMENTS = [
     *((path, "tubeloom") for path in sorted((ROOT / "examples").glob("*.json"))),
-    *((path, "yosys") for path in sorted((ROOT / "examples" / "yosys").glob("*.json"))),
+    *(
+        (path, name)
+        for name in ("yosys", "hif")
+        for path in sorted((ROOT / "examples" / name).glob("*.json"))
+    ),
 ]
 
 

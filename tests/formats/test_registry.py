@@ -22,7 +22,7 @@ def test_what_is_written_leaves_defaults_out() -> None:
 
 
 def test_unknown_formats_are_named_with_the_known_ones() -> None:
-    with pytest.raises(UnknownName, match="tubeloom, yosys"):
+    with pytest.raises(UnknownName, match="tubeloom, yosys, hif"):
         read("dot", b"{}", Settings())
 
 

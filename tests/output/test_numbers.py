@@ -8,7 +8,10 @@ import pytest
 
 from app.api.layout_model import LayoutNumbers
 from app.arrays import Floats
+from app.hyperedges.clearance.certificate import certify
+from app.hyperedges.pinches import find_pinches
 from app.hyperedges.routing import Routing
+from app.output.clearance_numbers import Verdict
 from app.output.numbers import layout_numbers
 from app.placement.placement import Placement
 from app.program.model import Program
@@ -36,12 +39,37 @@ def numbers(
     placement: Placement | None = None,
     routing: Routing | None = None,
     patches: Floats | None = None,
+    clearance: float | None = None,
 ) -> Any:
     program = program or three_items()
-    text = layout_numbers(
-        program, placement or placed(program), routing or routing_of_three_items(), patches
+    placement = placement or placed(program)
+    routing = routing or routing_of_three_items()
+    verdict = None
+    if clearance is not None:
+        verdict = Verdict(certify(routing, placement, clearance), find_pinches(routing))
+    return json.loads(layout_numbers(program, placement, routing, patches, verdict))
+
+
+def arch(start: float, height: float) -> list[list[float]]:
+    """From item to item of the three, whose tops are 2 apart."""
+    return [[start, 0, 0.5], [start, 0, height], [start + 2, 0, height], [start + 2, 0, 0.5]]
+
+
+def two_arches(second_height: float, sharp: bool = False) -> Routing:
+    """From x to y, and from y to z past x: both in one plane."""
+    curves = np.array([arch(0, 3.0), arch(0, second_height)])
+    if sharp:
+        curves[0, 1:3] = [[2, 0, 9], [0, 0, 9]]
+    return Routing(
+        control_points=curves,
+        segment_starts=np.array([0, 1, 2]),
+        segment_ends=np.array([[0, 1], [0, 1]]),
+        join_positions=np.zeros((0, 3)),
+        join_tangents=np.zeros((0, 3)),
+        join_starts=np.zeros(3, dtype=np.int64),
+        join_planes=np.array([3.0, 5.0]),
+        radii=np.array([0.08, 0.1]),
     )
-    return json.loads(text)
 
 
 def test_items_are_where_they_were_placed() -> None:
@@ -111,4 +139,37 @@ def test_a_program_without_hyperedges_or_items_has_empty_lists() -> None:
         join_planes=np.zeros(0),
         radii=np.zeros(0),
     )
-    assert numbers(program, placed(program), nothing) == {"items": [], "hyperedges": []}
+    assert numbers(program, placed(program), nothing) == {"items": [], "hyperedges": [], "clearance": None}
+
+
+def test_without_a_wish_for_clearance_nothing_is_said_about_it() -> None:
+    assert numbers()["clearance"] is None
+
+
+def test_conflicts_name_the_hyperedges_and_the_place() -> None:
+    clearance = numbers(routing=two_arches(3.0), clearance=0.05)["clearance"]
+    ids = [hyperedge.id for hyperedge in three_items().hyperedges]
+    assert clearance["required"] == 0.05
+    assert clearance["certified"] is False
+    (pair,) = [found for found in clearance["conflicts"] if found["item"] is None]
+    assert pair["hyperedges"] == ids
+    assert pair["distance"] == pytest.approx(-0.18, abs=1e-3)
+    assert len(pair["place"]) == 3
+    assert clearance["minimum"] == min(found["distance"] for found in clearance["conflicts"])
+
+
+def test_a_tube_too_near_to_an_item_names_the_item() -> None:
+    routing = two_arches(3.0)
+    routing.control_points[1] = [[0, 0, 0.5], [1, 0, 3.5], [4, 0, 3.5], [4, 0, 0]]
+    found = numbers(routing=routing, clearance=0.05)["clearance"]["conflicts"]
+    assert [(one["hyperedges"], one["item"]) for one in found if one["item"]] == [(["f"], "z")]
+
+
+def test_a_pinch_names_its_segment() -> None:
+    clearance = numbers(routing=two_arches(5.0, sharp=True), clearance=0.0)["clearance"]
+    assert [found["segment"] for found in clearance["pinches"]] == [0]
+    assert clearance["pinches"][0]["radius_of_curvature"] < 1.5 * 0.08
+
+
+def test_the_interfaces_description_holds_for_conflicts_as_well() -> None:
+    LayoutNumbers.model_validate(numbers(routing=two_arches(3.0), clearance=0.05))

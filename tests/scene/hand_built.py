@@ -15,6 +15,7 @@ from app.program.model import Program
 from app.scene.assemble import assemble
 from app.scene.camera import Axes
 from app.scene.scene import Camera, Node, Scene
+from app.solids.extents import size_of
 from app.solids.meshing import mesh_of
 from app.solids.solid import Box, Solid, Sphere, Text
 from app.tubes.tubes import Tubes
@@ -61,7 +62,12 @@ def placed(program: Program, *, spacing: float = 2.0, solids: Sequence[Solid] = 
         sizes=np.ones((count, 3)),
         solids=tuple(solids) or (CUBE,) * count,
         labels=tuple(
-            LabelPlace(Text(item.label, 0.3, 0.05), (0.0, -0.5, 0.0), STANDING)
+            LabelPlace(
+                Text(item.label, 0.3, 0.05),
+                (0.0, -0.5, 0.0),
+                STANDING,
+                size_of(Text(item.label, 0.3, 0.05)),
+            )
             if item.label
             else None
             for item in program.items

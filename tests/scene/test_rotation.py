@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from app.scene.rotation import matrices, quaternion
+from app.placement.turning import matrices
+from app.scene.rotation import quaternion
 
 quaternions = (
     st.tuples(*[st.floats(-1, 1)] * 4)

@@ -1,0 +1,1 @@
+"""How far hyperedges are from each other and from items, proven."""

@@ -1,0 +1,216 @@
+"""The proof that hyperedges are clear of each other and of items, or where they are not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.arrays import Floats, Indices
+from app.hyperedges.clearance.obstacles import (
+    attached_items,
+    near_obstacles,
+    obstacle_gaps,
+    obstacles_of,
+)
+from app.hyperedges.clearance.own import OwnContacts, own_contacts
+from app.hyperedges.clearance.pairs import Gaps, gaps, near_pairs
+from app.hyperedges.routing import Routing
+from app.placement.placement import Placement
+
+AHEAD = 2.0
+"""Of the largest radius: so much farther than the clearance the smallest distance is looked for."""
+
+AT_ONCE = 16384
+"""Pairs measured before the smallest distance so far is taken into account."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """The nearest place of a hyperedge, ``first``, and another or an item, ``second``.
+
+    ``lower`` and ``upper`` are bounds of the distance between the surfaces, negative where they
+    pass through each other; ``place`` is halfway between them.
+    """
+
+    with_item: bool
+    first: int
+    second: int
+    place: tuple[float, float, float]
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Conflicts:
+    """Pairs that are not proven to be clear, each once, at the nearest place.
+
+    ``with_items`` (k,): whether ``second`` (k,) is an item, which hyperedge ``first`` (k,) does not
+    attach to, or a hyperedge with a larger number; pairs of hyperedges come first, sorted.
+    ``places`` (k, 3); ``lower`` and ``upper`` (k,): bounds of the distance between the surfaces.
+    """
+
+    with_items: NDArray[np.bool_]
+    first: Indices
+    second: Indices
+    places: Floats
+    lower: Floats
+    upper: Floats
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Certificate:
+    """What is proven of a routing.
+
+    ``certified``: every two hyperedges, and every hyperedge and every item that it does not attach
+    to, are ``required`` apart or more, surface from surface. Where that is so ``conflicts`` is
+    empty; what could not be decided is in it. ``minimum`` is a lower bound of the smallest of these
+    distances, within a hundredth of it where ``nearest`` says what is there; without ``nearest``
+    nothing is as near as that. ``own`` are hyperedges that touch themselves, which is for them to
+    decide.
+    """
+
+    required: float
+    certified: bool
+    minimum: float
+    nearest: Contact | None
+    conflicts: Conflicts
+    own: OwnContacts
+
+
+def certify(routing: Routing, placement: Placement, clearance: float) -> Certificate:
+    """The certificate of a routing, for surfaces ``clearance`` apart.
+
+    Distances are bounded by subdivision, never by sampling, in floating point with more room for
+    rounding than it can take (`app.hyperedges.clearance.cubic`). A pair that is exactly
+    ``clearance`` apart cannot be decided, and is a conflict. Hyperedges that share an attachment
+    are one too. Without conflicts the smallest distance is looked for as far as the clearance and
+    the diameter of the thickest tube.
+
+    Raises `ValueError` where a control point, a radius or an item's place is not finite.
+    """
+    _refuse_infinite(routing, placement)
+    owners = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
+    points, radii = np.ascontiguousarray(routing.control_points), routing.radii[owners]
+    obstacles, attached = obstacles_of(placement), attached_items(placement)
+
+    def pairs(reach: float) -> tuple[Indices, Indices]:
+        return (
+            near_pairs(points, owners, radii, reach),
+            near_obstacles(points, owners, radii, obstacles, attached, reach),
+        )
+
+    def measure(tubes: Indices, items: Indices, enough: float) -> Gaps:
+        return _both(
+            gaps(points, radii, tubes, enough),
+            obstacle_gaps(points, radii, obstacles, items, enough),
+        )
+
+    def contacts(tubes: Indices, items: Indices, found: Gaps) -> Conflicts:
+        with_items = np.repeat([False, True], [len(tubes), len(items)])
+        first = owners[np.concatenate([tubes[:, 0], items[:, 0]])]
+        second = np.concatenate([owners[tubes[:, 1]], obstacles.items[items[:, 1]]])
+        return Conflicts(with_items, first, second, found.places, found.lower, found.upper)
+
+    tubes, items = pairs(clearance)
+    found = measure(tubes, items, clearance)
+    conflicts = _once(contacts(tubes, items, found), found.lower < clearance)
+    nearest: Contact | None
+    if len(conflicts):
+        nearest = _nearest(conflicts)
+        minimum = nearest.lower
+    else:
+        reach = clearance + AHEAD * float(radii.max(initial=0.0))
+        minimum, nearest = _look_ahead(*pairs(reach), reach, measure, contacts)
+        # The clearance is proven already, and may be within a hundredth of the smallest distance.
+        minimum = max(minimum, clearance)
+    return Certificate(
+        clearance, not len(conflicts), minimum, nearest, conflicts, own_contacts(routing)
+    )
+
+
+def _refuse_infinite(routing: Routing, placement: Placement) -> None:
+    for numbers in (
+        routing.control_points,
+        routing.radii,
+        placement.centers,
+        placement.rotations,
+        placement.sizes,
+    ):
+        if not np.isfinite(numbers).all():
+            raise ValueError("Only what is at finite places can be certified.")
+
+
+def _both(tubes: Gaps, items: Gaps) -> Gaps:
+    return Gaps(
+        np.concatenate([tubes.lower, items.lower]),
+        np.concatenate([tubes.upper, items.upper]),
+        np.concatenate([tubes.at, items.at]),
+        np.concatenate([tubes.places, items.places]),
+    )
+
+
+def _kept(conflicts: Conflicts, rows: Indices) -> Conflicts:
+    return Conflicts(
+        conflicts.with_items[rows],
+        conflicts.first[rows],
+        conflicts.second[rows],
+        conflicts.places[rows],
+        conflicts.lower[rows],
+        conflicts.upper[rows],
+    )
+
+
+def _once(all_pairs: Conflicts, wanted: NDArray[np.bool_]) -> Conflicts:
+    """The nearest of the wanted rows for each pair, sorted."""
+    rows = np.flatnonzero(wanted)
+    chosen = _kept(all_pairs, rows)
+    order = np.lexsort((chosen.lower, chosen.second, chosen.first, chosen.with_items))
+    names = np.stack([chosen.with_items, chosen.first, chosen.second])[:, order]
+    new = np.ones(len(order), dtype=np.bool_)
+    new[1:] = (names[:, 1:] != names[:, :-1]).any(axis=0)
+    return _kept(chosen, order[new])
+
+
+def _nearest(contacts: Conflicts) -> Contact:
+    row = int(contacts.lower.argmin())
+    x, y, z = contacts.places[row].tolist()
+    return Contact(
+        with_item=bool(contacts.with_items[row]),
+        first=int(contacts.first[row]),
+        second=int(contacts.second[row]),
+        place=(x, y, z),
+        lower=float(contacts.lower[row]),
+        upper=float(contacts.upper[row]),
+    )
+
+
+def _look_ahead(
+    tubes: Indices,
+    items: Indices,
+    reach: float,
+    measure: Callable[[Indices, Indices, float], Gaps],
+    contacts: Callable[[Indices, Indices, Gaps], Conflicts],
+) -> tuple[float, Contact | None]:
+    """The smallest distance of pairs of segments, and of segments and boxes, below ``reach``.
+
+    Whatever is farther apart than the nearest so far is left as soon as that is known.
+    """
+    lowest, enough = reach, reach
+    nearest: Contact | None = None
+    for begin in range(0, max(len(tubes), len(items)), AT_ONCE):
+        some = tubes[begin : begin + AT_ONCE], items[begin : begin + AT_ONCE]
+        found = measure(*some, enough)
+        lowest = min(lowest, float(found.lower.min()))
+        if found.upper.min() < enough:
+            # What was left early is not the nearest: its lower bound is above another's upper.
+            rows = np.flatnonzero(found.upper < enough)
+            row = rows[[int(found.upper[rows].argmin())]]
+            nearest = _nearest(_kept(contacts(*some, found), row))
+            enough = nearest.upper
+    return lowest, nearest

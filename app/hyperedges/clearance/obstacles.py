@@ -1,0 +1,228 @@
+"""Items as obstacles for hyperedges that do not attach to them, and how near these come."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from app.arrays import Floats, Indices
+from app.hyperedges.clearance.box_tree import in_parts, meeting, plant
+from app.hyperedges.clearance.distance import search_box
+from app.hyperedges.clearance.hulls import Boxes, hull
+from app.hyperedges.clearance.pairs import FINEST, ROUNDING, Gaps, bezier, boxes
+from app.hyperedges.clearance.search import workspace
+from app.placement.placement import Placement
+from app.placement.turning import matrices
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Obstacles:
+    """m rounded boxes that hold all items and their labels.
+
+    ``centers`` (m, 3); the columns of ``rotations`` (m, 3, 3) are the boxes' axes; ``halves``
+    (m, 3) half their sizes; ``roundings`` (m,): all that is nearer to a box than this belongs to it
+    (a ball is a box without size). ``items`` (m,): whose they are, ascending.
+    """
+
+    centers: Floats
+    rotations: Floats
+    halves: Floats
+    roundings: Floats
+    items: Indices
+
+
+def obstacles_of(placement: Placement) -> Obstacles:
+    """The boxes of all items of a placement, and of their labels' letters.
+
+    A box and letters are their box; a ball is exact; a cylinder is the octagon around it, a cone
+    four such slices. A tray is its floor and its walls: what stands in it is not in the obstacle.
+    """
+    parts: list[Boxes] = []
+    items: list[int] = []
+    placed: list[tuple[tuple[float, ...], tuple[float, ...]]] = []
+    sizes = placement.sizes.tolist()
+    for number, solid in enumerate(placement.solids):
+        width, depth, rise = sizes[number]
+        if width > 0.0 or depth > 0.0 or rise > 0.0:
+            parts.append(hull(solid, (width, depth, rise)))
+            placed.append(_HERE)
+            items.append(number)
+        label = placement.labels[number]
+        if label is not None:
+            parts.append(hull(label.text, label.size))
+            placed.append((label.position, label.rotation))
+            items.append(number)
+    if not parts:
+        nothing = np.zeros((0, 3))
+        return Obstacles(
+            nothing, np.zeros((0, 3, 3)), nothing, np.zeros(0), np.zeros(0, dtype=np.int64)
+        )
+    counts = [len(part.centers) for part in parts]
+    owners = np.repeat(np.array(items), counts)
+    centers, turns, halves, roundings = (
+        np.concatenate(arrays) for arrays in zip(*parts, strict=True)
+    )
+    for positions, rotations in (
+        _repeated(placed, counts),
+        (placement.centers[owners], placement.rotations[owners]),
+    ):
+        frames = matrices(rotations)
+        centers = positions + np.einsum("kij,kj->ki", frames, centers)
+        turns = frames @ turns
+    return Obstacles(centers, np.ascontiguousarray(turns), halves, roundings, owners)
+
+
+_HERE = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+
+
+def _repeated(
+    placed: list[tuple[tuple[float, ...], tuple[float, ...]]], counts: list[int]
+) -> tuple[Floats, Floats]:
+    positions = np.array([position for position, _ in placed])
+    rotations = np.array([rotation for _, rotation in placed])
+    return np.repeat(positions, counts, axis=0), np.repeat(rotations, counts, axis=0)
+
+
+def attached_items(placement: Placement) -> Indices:
+    """Which hyperedge attaches to which item: pairs (k, 2), each once, sorted."""
+    starts = placement.attachment_starts
+    hyperedges = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    count = max(len(placement.solids), 1)
+    keys = np.unique(hyperedges * count + placement.attachment_items)
+    return np.stack(np.divmod(keys, count), axis=1)
+
+
+def near_obstacles(
+    control_points: Floats,
+    owners: Indices,
+    radii: Floats,
+    obstacles: Obstacles,
+    attached: Indices,
+    clearance: float,
+    active: NDArray[np.bool_] | None = None,
+) -> Indices:
+    """Pairs (m, 2) of a segment and a box of an obstacle that may be nearer than ``clearance``.
+
+    ``control_points`` (s, 4, 3), ``owners`` and ``radii`` (s,) of the segments, as for
+    `app.hyperedges.clearance.pairs.near_pairs`. No hyperedge is paired with an item that
+    ``attached`` (k, 2) names it with, nor with that item's label. With ``active`` (s,) those
+    segments alone. Sorted.
+    """
+    if len(control_points) == 0 or len(obstacles.items) == 0:
+        return np.zeros((0, 2), dtype=np.int64)
+    reach = np.einsum("kij,kj->ki", np.abs(obstacles.rotations), obstacles.halves)
+    reach += (obstacles.roundings + ROUNDING * float(np.abs(obstacles.centers).max()))[:, None]
+    nothing = np.zeros((len(obstacles.items), 1))
+    tree = plant(
+        np.hstack([obstacles.centers - reach, nothing, obstacles.centers + reach, nothing])
+    )
+    asking = np.arange(len(owners)) if active is None else np.flatnonzero(active)
+    # No two groups are equal: the pairs that are attached are taken out below.
+    strangers = np.full(len(obstacles.items), -1)
+    found = meeting(tree, boxes(control_points, radii + clearance), asking, (owners, strangers))
+    count = int(max(obstacles.items.max(), attached[:, 1].max(initial=0))) + 1
+    keys = owners[found[:, 0]] * count + obstacles.items[found[:, 1]]
+    return found[~np.isin(keys, attached[:, 0] * count + attached[:, 1])]
+
+
+def obstacle_gaps(
+    control_points: Floats,
+    radii: Floats,
+    obstacles: Obstacles,
+    pairs: Indices,
+    enough: float,
+    tolerance: float = 0.01,
+) -> Gaps:
+    """How far the tubes of ``pairs`` (m, 2) of a segment and a box of an obstacle are from it.
+
+    As `app.hyperedges.clearance.pairs.gaps`; the second of ``at`` is 0. A curve that enters a box
+    has the distance -radius, however deep it goes.
+    """
+    count = len(pairs)
+    found = Gaps(np.empty(count), np.empty(count), np.zeros((count, 2)), np.empty((count, 3)))
+    in_parts(
+        count,
+        lambda begin, end: _measure(
+            control_points,
+            radii,
+            obstacles.centers,
+            obstacles.rotations,
+            obstacles.halves,
+            obstacles.roundings,
+            pairs[begin:end],
+            enough,
+            tolerance,
+            found.lower[begin:end],
+            found.upper[begin:end],
+            found.at[begin:end],
+            found.places[begin:end],
+        ),
+    )
+    return found
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _measure(
+    control_points: Floats,
+    radii: Floats,
+    centers: Floats,
+    rotations: Floats,
+    halves: Floats,
+    roundings: Floats,
+    pairs: Indices,
+    enough: float,
+    tolerance: float,
+    lower: Floats,
+    upper: Floats,
+    at: Floats,
+    places: Floats,
+) -> None:
+    rows, keys, heap, free = workspace()
+    for k in range(len(pairs)):
+        i, j = pairs[k, 0], pairs[k, 1]
+        thickness = radii[i] + roundings[j]
+        near, far, u = search_box(
+            control_points[i],
+            centers[j],
+            rotations[j],
+            halves[j],
+            enough + thickness,
+            thickness,
+            tolerance,
+            FINEST * tolerance * thickness,
+            rows,
+            keys,
+            heap,
+            free,
+        )
+        lower[k], upper[k] = near - thickness, far - thickness
+        at[k, 0] = u
+        for axis in range(3):
+            places[k, axis] = bezier(control_points, i, axis, u)
+        # From the curve over its radius and half the gap.
+        if far > 0.0:
+            _go_to_box(
+                centers[j],
+                rotations[j],
+                halves[j],
+                (radii[i] + 0.5 * (far - thickness)) / far,
+                places[k],
+            )
+
+
+@njit(cache=True, error_model="numpy")
+def _go_to_box(center: Floats, rotation: Floats, half: Floats, share: float, place: Floats) -> None:
+    """Move a place a share of the way to the nearest point of a box."""
+    way = np.zeros(3)
+    for axis in range(3):
+        along = 0.0
+        for other in range(3):
+            along += (place[other] - center[other]) * rotation[other, axis]
+        beyond = along - min(max(along, -half[axis]), half[axis])
+        for other in range(3):
+            way[other] -= beyond * rotation[other, axis]
+    for axis in range(3):
+        place[axis] += share * way[axis]

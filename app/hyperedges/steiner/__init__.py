@@ -1,0 +1,1 @@
+"""Short trees: the Euclidean Steiner tree of each hyperedge, nearly."""

@@ -1,0 +1,110 @@
+"""Which hyperedges come too near to each other as seen from above (Numba)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from app.arrays import Floats, Indices
+
+MARGIN = 1.02
+"""Plans count as crossing up to this many times the distance that tubes need."""
+
+
+class Crossings(NamedTuple):
+    """Which plans of h hyperedges come too near to each other.
+
+    The neighbours of hyperedge k are ``neighbours[starts[k] : starts[k + 1]]``, in order.
+    """
+
+    starts: Indices
+    neighbours: Indices
+
+
+def find_crossings(legs: Floats, owners: Indices, radii: Floats, clearance: float) -> Crossings:
+    """Crossings of straight legs (m, 2, 2) whose hyperedges are ``owners`` (m,).
+
+    Tubes with ``radii`` (h,) need r1 + r2 + ``clearance`` between their centre lines.
+    """
+    order = np.argsort(legs[:, :, 0].min(axis=1), kind="stable")
+    pairs = _sweep(legs[order], owners[order], radii, clearance)
+    count = len(radii)
+    codes = np.unique(
+        np.concatenate([pairs[:, 0] * count + pairs[:, 1], pairs[:, 1] * count + pairs[:, 0]])
+    )
+    first, second = codes // count, codes % count
+    return Crossings(np.searchsorted(first, np.arange(count + 1)), second)
+
+
+@njit(cache=True)
+def _sweep(legs: Floats, owners: Indices, radii: Floats, clearance: float) -> Indices:
+    """Pairs of hyperedges with legs too near, some of them several times; legs sorted by x."""
+    pairs = np.empty((4 * len(legs) + 16, 2), np.int64)
+    count = 0
+    widest = 0.0
+    for r in radii:
+        widest = max(widest, r)
+    # Remembers with whom a hyperedge was last paired, which saves most repetitions.
+    lately = np.full(len(radii), -1)
+    for i in range(len(legs)):
+        k = owners[i]
+        right = max(legs[i, 0, 0], legs[i, 1, 0]) + MARGIN * (radii[k] + widest + clearance)
+        low = min(legs[i, 0, 1], legs[i, 1, 1])
+        high = max(legs[i, 0, 1], legs[i, 1, 1])
+        for j in range(i + 1, len(legs)):
+            if min(legs[j, 0, 0], legs[j, 1, 0]) > right:
+                break
+            other = owners[j]
+            if other == k or lately[other] == i:
+                continue
+            needed = MARGIN * (radii[k] + radii[other] + clearance)
+            if min(legs[j, 0, 1], legs[j, 1, 1]) > high + needed:
+                continue
+            if max(legs[j, 0, 1], legs[j, 1, 1]) < low - needed:
+                continue
+            if squared_gap(legs[i], legs[j]) >= needed * needed:
+                continue
+            lately[other] = i
+            if count == len(pairs):
+                more = np.empty((2 * count, 2), np.int64)
+                more[:count] = pairs
+                pairs = more
+            pairs[count, 0], pairs[count, 1] = k, other
+            count += 1
+    return pairs[:count]
+
+
+@njit(cache=True)
+def squared_gap(a: Floats, b: Floats) -> float:
+    """Squared distance of two straight legs (2, 2); zero where they cross."""
+    if _side(a, b[0]) * _side(a, b[1]) < 0.0 and _side(b, a[0]) * _side(b, a[1]) < 0.0:
+        return 0.0
+    return min(
+        squared_distance(a, b[0]),
+        squared_distance(a, b[1]),
+        squared_distance(b, a[0]),
+        squared_distance(b, a[1]),
+    )
+
+
+@njit(cache=True)
+def _side(leg: Floats, point: Floats) -> float:
+    return float(
+        (leg[1, 0] - leg[0, 0]) * (point[1] - leg[0, 1])
+        - (leg[1, 1] - leg[0, 1]) * (point[0] - leg[0, 0])
+    )
+
+
+@njit(cache=True)
+def squared_distance(leg: Floats, point: Floats) -> float:
+    """Squared distance of a point (2,) from a straight leg (2, 2)."""
+    x, y = leg[1, 0] - leg[0, 0], leg[1, 1] - leg[0, 1]
+    square = x * x + y * y
+    t = 0.0
+    if square > 0.0:
+        t = ((point[0] - leg[0, 0]) * x + (point[1] - leg[0, 1]) * y) / square
+        t = min(max(t, 0.0), 1.0)
+    dx, dy = leg[0, 0] + t * x - point[0], leg[0, 1] + t * y - point[1]
+    return float(dx * dx + dy * dy)

@@ -1,0 +1,97 @@
+"""Laying courses, and checking them: what stays the same while they are made stricter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.arrays import Floats, Indices
+from app.hyperedges.weaving.fabric import Fabric, lay_courses
+from app.hyperedges.weaving.faults import PINCH, Faults, find_faults
+from app.hyperedges.weaving.plan import Plan
+from app.hyperedges.weaving.threads import Still, Surroundings, Threads
+from app.hyperedges.weaving.ways import Ways
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Check:
+    """What is wrong with a fabric of e edges.
+
+    ``near`` (m, 2) are edges that come too near to each other, e for what stands still;
+    ``hyperedges`` (m, 2) those that they are of. ``at_items`` (n,) are edges too near to items,
+    ``pinched`` (e,) those that bend too much.
+    """
+
+    faults: Faults
+    near: Indices
+    hyperedges: Indices
+    at_items: Indices
+    pinched: NDArray[np.bool_]
+
+    @property
+    def edges(self) -> NDArray[np.bool_]:
+        """Which edges (e,) are too near to something."""
+        found = np.zeros(len(self.pinched) + 1, dtype=np.bool_)
+        found[self.near] = True
+        found[self.at_items] = True
+        return found[:-1]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Loom:
+    """A plan with its tangents, among what stands still and items.
+
+    ``leaving`` (e, 2, 2) are the directions in which edges leave joins, ``ends`` (e, 2, 2) the
+    places up to which they follow them; ``owners`` (e,) the edges' hyperedges. ``radii`` (h,) are
+    those of threads, then of what stands still.
+    """
+
+    plan: Plan
+    leaving: Floats
+    ends: Floats
+    owners: Indices
+    threads: Threads
+    still: Still
+    surroundings: Surroundings
+    radii: Floats
+    clearance: float
+
+    def lay(self, ways: Ways, strictness: Indices, planes: Floats) -> Fabric:
+        """Courses of all edges, as strict as ``strictness`` (e,), at ``planes`` (h,)."""
+        return lay_courses(
+            self.plan,
+            ways,
+            strictness,
+            self.leaving,
+            self.ends,
+            self.threads.positions,
+            self.threads.directions,
+            planes,
+            self.radii,
+        )
+
+    def check(self, fabric: Fabric, active: NDArray[np.bool_]) -> Check:
+        """What is wrong around the ``active`` (e,) edges of a fabric."""
+        woven = len(self.threads.radii)
+        edges = np.repeat(np.arange(len(active)), np.diff(fabric.starts))
+        edges = np.append(edges, np.full(len(self.still.owners), len(active)))
+        owners = np.append(
+            np.repeat(self.owners, np.diff(fabric.starts)), self.still.owners + woven
+        )
+        faults = find_faults(
+            np.concatenate([fabric.segments, self.still.segments]),
+            owners,
+            self.radii[owners],
+            self.clearance,
+            self.surroundings,
+            np.append(active, False)[edges],
+        )
+        return Check(
+            faults,
+            edges[faults.pairs],
+            owners[faults.pairs],
+            edges[faults.at_items],
+            fabric.least < PINCH,
+        )

@@ -1,0 +1,58 @@
+"""What is to be woven, and what it must keep clear of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.arrays import Floats, Indices
+from app.hyperedges.clearance.obstacles import Obstacles
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Threads:
+    """h hyperedges that want curves.
+
+    ``positions`` and unit, outward ``directions`` (a, 3) of their attachments, those of hyperedge k
+    from ``starts[k]`` to ``starts[k + 1]`` (h + 1,); ``radii`` (h,). ``lows`` (h,): the lowest
+    plane that looks right for each, or the very plane where it is ``given`` (h,).
+    """
+
+    positions: Floats
+    directions: Floats
+    starts: Indices
+    radii: Floats
+    lows: Floats
+    given: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Still:
+    """g hyperedges that have curves and keep them.
+
+    ``segments`` (s, 4, 3) of the hyperedges ``owners`` (s,), numbered from 0; their ``feet``
+    (a, 2), of the hyperedges ``feet_owners`` (a,); ``planes`` and ``radii`` (g,).
+    """
+
+    segments: Floats
+    owners: Indices
+    feet: Floats
+    feet_owners: Indices
+    planes: Floats
+    radii: Floats
+
+    @staticmethod
+    def nothing() -> Still:
+        """Nothing stands still."""
+        none = np.zeros(0, dtype=np.int64)
+        return Still(np.zeros((0, 4, 3)), none, np.zeros((0, 2)), none, np.zeros(0), np.zeros(0))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Surroundings:
+    """Items to keep clear of: their boxes, and which hyperedge attaches to which item (k, 2)."""
+
+    obstacles: Obstacles
+    attached: Indices

@@ -1,0 +1,126 @@
+"""Ways of all edges of a plan, around the feet of hyperedges above them (Numba)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from app.arrays import Floats, Indices
+from app.hyperedges.weaving.detours import find_way
+from app.hyperedges.weaving.grid import Grid, collect
+from app.hyperedges.weaving.plan import BEND, NEXT, Plan
+
+MOST_NEAR = 4096
+"""Feet looked at for one edge."""
+
+MOST_CORNERS = 48
+
+OWN = 2.2
+"""Distance in radii that edges keep from other feet of their own hyperedge."""
+
+
+class Ways(NamedTuple):
+    """Corners of e edges between their ends: ``corners[starts[i] : starts[i + 1]]``, (n, 2).
+
+    ``blocked`` (e,) says for which edges there is none; theirs are straight.
+    """
+
+    starts: Indices
+    corners: Floats
+    blocked: NDArray[np.bool_]
+
+
+@njit(cache=True)
+def find_ways(
+    plan: Plan,
+    leaving: Floats,
+    ends: Floats,
+    grid: Grid,
+    feet: Floats,
+    feet_owners: Indices,
+    planes: Floats,
+    radii: Floats,
+    widths: Floats,
+    clearance: float,
+) -> Ways:
+    """Ways between ``ends`` (e, 2, 2), around feet of hyperedges whose ``planes`` are higher.
+
+    ``leaving`` (e, 2, 2) are the directions in which they have left joins.
+    ``feet`` (a, 2) are of the hyperedges ``feet_owners`` (a,); ``planes`` and ``radii`` (h,);
+    ``widths`` (h,) is how much wider than needed (1 or more) each hyperedge goes around them.
+    """
+    edges = len(plan.edges)
+    starts = np.zeros(edges + 1, np.int64)
+    corners = np.empty((edges + 16, 2))
+    blocked = np.zeros(edges, np.bool_)
+    found = np.empty(MOST_NEAR, np.int64)
+    discs = np.empty((MOST_NEAR + 4, 3))
+    way = np.empty((MOST_CORNERS + 2, 2))
+    headings = np.empty((2, 2))
+    widest = 0.0
+    for r in radii:
+        widest = max(widest, r)
+    count = 0
+    for k in range(len(plan.starts) - 1):
+        reach = widths[k] * max(radii[k] + widest + clearance, BEND * widest)
+        for e in range(plan.edge_starts[k], plan.edge_starts[k + 1]):
+            u, v = plan.edges[e, 0], plan.edges[e, 1]
+            ax, ay = ends[e, 0, 0], ends[e, 0, 1]
+            bx, by = ends[e, 1, 0], ends[e, 1, 1]
+            length = np.hypot(bx - ax, by - ay)
+            near = collect(grid, ax, ay, bx, by, reach + 1.0 + 0.3 * length, found)
+            m = 0
+            for i in range(near):
+                foot = found[i]
+                other = feet_owners[foot]
+                if other == k:
+                    local = foot - plan.starts[k]
+                    if local in (u, v):
+                        continue
+                    size = OWN * radii[k]
+                elif planes[other] > planes[k]:
+                    size = max(radii[k] + radii[other] + clearance, BEND * radii[other])
+                    size = max(size, BEND * 1.05 * radii[k]) * widths[k]
+                else:
+                    continue
+                x, y = feet[foot, 0], feet[foot, 1]
+                # An end within a disc could never leave it.
+                size = min(size, 0.98 * np.hypot(x - ax, y - ay), 0.98 * np.hypot(x - bx, y - by))
+                discs[m, 0], discs[m, 1], discs[m, 2] = x, y, size
+                m += 1
+            bend = BEND * radii[k]
+            m = _add_turns(ends[e], leaving[e], NEXT * radii[k], bend, discs, m)
+            headings[0], headings[1] = leaving[e, 0], -leaving[e, 1]
+            turns = find_way(ax, ay, bx, by, discs[:m], headings, bend, way)
+            if turns < 0:
+                blocked[e] = True
+                turns = 0
+            if count + turns > len(corners):
+                more = np.empty((2 * (count + turns), 2))
+                more[:count] = corners[:count]
+                corners = more
+            for i in range(turns):
+                corners[count + i] = way[i + 1]
+            count += turns
+            starts[e + 1] = count
+    return Ways(starts, corners[:count], blocked)
+
+
+@njit(cache=True)
+def _add_turns(
+    ends: Floats, leaving: Floats, step: float, bend: float, discs: Floats, count: int
+) -> int:
+    """Add the circles beside joins on which a way may turn at most; how many discs there are."""
+    for side in range(2):
+        x, y = leaving[side, 0], leaving[side, 1]
+        if x == 0.0 and y == 0.0:
+            continue
+        for sense in (bend, -bend):
+            discs[count, 0] = ends[side, 0] - step * x - 1.02 * sense * y
+            discs[count, 1] = ends[side, 1] - step * y + 1.02 * sense * x
+            discs[count, 2] = bend
+            count += 1
+    return count

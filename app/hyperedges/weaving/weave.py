@@ -1,0 +1,239 @@
+"""Curves of hyperedges that keep clear of each other, by construction where nothing else helps.
+
+Each hyperedge has a plane of its own, as low as can be: hyperedges share planes unless their plans,
+seen from above, come too near to each other. All curves begin as soft arches. Where two come too
+near, both are made stricter, until they rise straight from their attachments, run in their planes
+only, and go around the risers of those above them; then they cannot meet. What still fails, because
+its surroundings are too crowded, is moved above them, where it has nothing to go around.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.arrays import Floats, Indices
+from app.hyperedges.weaving.courses import AROUND, SOFT, STEEP
+from app.hyperedges.weaving.crossings import find_crossings
+from app.hyperedges.weaving.fabric import Fabric
+from app.hyperedges.weaving.grid import Grid, sort_into_cells
+from app.hyperedges.weaving.joins import settle_joins
+from app.hyperedges.weaving.legs import around_legs, control_legs, direct_legs
+from app.hyperedges.weaving.lifting import lift
+from app.hyperedges.weaving.loom import Check, Loom
+from app.hyperedges.weaving.plan import Plan, draw_plan
+from app.hyperedges.weaving.storeys import first_fit, highest_under, stack
+from app.hyperedges.weaving.tangents import choose_tangents, inner_ends
+from app.hyperedges.weaving.threads import Still, Surroundings, Threads
+from app.hyperedges.weaving.towers import pass_above
+from app.hyperedges.weaving.ways import Ways, find_ways
+
+ATTEMPTS = 6
+"""How often what fails is moved above the rest, at most."""
+
+WIDTH = 1.05
+"""Ways go around feet at so many times the distance that is needed."""
+
+CELL = 12.0
+"""Size of the cells in which feet are sorted, over the mean radius."""
+
+Progress = Callable[[float], None]
+"""Told which share of the work is done at least, from 0 to 1. May raise to end it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Weave:
+    """Curves of all threads, and what is still wrong with them.
+
+    ``leaving`` (e, 2, 2): the directions in which edges leave joins. ``hit`` (g,): which of the
+    hyperedges that stand still are too near. ``faults`` counts what is too near, ``pinches`` edges
+    that bend too much.
+    """
+
+    plan: Plan
+    fabric: Fabric
+    leaving: Floats
+    planes: Floats
+    hit: NDArray[np.bool_]
+    faults: int
+    pinches: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Feet:
+    """All feet, those of threads before those that stand still, and the hyperedges they are of."""
+
+    places: Floats
+    owners: Indices
+    grid: Grid
+
+
+def weave(
+    threads: Threads,
+    still: Still,
+    surroundings: Surroundings,
+    clearance: float,
+    progress: Progress = lambda _share: None,
+) -> Weave:
+    """Curves for ``threads`` that keep clear of each other, of what stands ``still``, and of items.
+
+    Hyperedges in ``surroundings.attached`` are numbered threads first.
+    """
+    drawn = draw_plan(threads.positions, threads.directions, threads.starts, threads.radii)
+    woven = len(threads.radii)
+    edges = np.repeat(np.arange(woven), np.diff(drawn.edge_starts))
+    radii = np.concatenate([threads.radii, still.radii])
+    feet = _all_feet(drawn, threads, still, float(radii.mean()) if len(radii) else 1.0)
+    still_legs, still_owners = control_legs(still.segments), np.repeat(still.owners + woven, 3)
+    direct = direct_legs(drawn)
+    lows = np.where(
+        threads.given,
+        threads.lows,
+        pass_above(direct, edges, threads.radii, clearance, surroundings.obstacles, threads.lows),
+    )
+    lows = np.concatenate([lows, still.planes])
+    fixed = np.concatenate([threads.given, np.ones(len(still.planes), dtype=np.bool_)])
+    crossings = find_crossings(
+        np.concatenate([direct, still_legs]),
+        np.concatenate([edges, still_owners]),
+        radii,
+        clearance,
+    )
+    tops = highest_under(
+        still_legs, still_owners, feet.places, feet.owners, lows, radii, clearance, woven
+    )
+    order = _short_first(drawn, feet.places)
+    planes = first_fit(crossings, order[~fixed[order]], lows, tops, radii, clearance)
+    loom = _thread(drawn, edges, feet, threads, still, surroundings, planes, radii, clearance)
+    lifted = lift(loom, planes, fixed)
+    lows, planes = np.where(lifted > planes, lifted, lows), lifted
+    best, troubled = _try(loom, feet, planes, lows, fixed)
+    for attempt in range(1, ATTEMPTS):
+        troubled = troubled[~fixed[troubled]]
+        if len(troubled) == 0:
+            break
+        progress(attempt / ATTEMPTS)
+        planes = planes.copy()
+        planes[troubled] = planes.max(initial=0.0) + 1.0 + np.arange(len(troubled))
+        loom = _thread(drawn, edges, feet, threads, still, surroundings, planes, radii, clearance)
+        made, troubled = _try(loom, feet, planes, lows, fixed)
+        if (made.faults, made.pinches) < (best.faults, best.pinches):
+            best = made
+    return best
+
+
+def _all_feet(plan: Plan, threads: Threads, still: Still, radius: float) -> _Feet:
+    counts = np.diff(threads.starts)
+    rows = np.repeat(plan.node_starts[:-1] - threads.starts[:-1], counts)
+    own = plan.places[np.arange(len(threads.positions)) + rows]
+    places = np.concatenate([own, still.feet])
+    owners = np.concatenate(
+        [np.repeat(np.arange(len(counts)), counts), still.feet_owners + len(counts)]
+    )
+    return _Feet(places, owners, sort_into_cells(places, CELL * radius))
+
+
+def _short_first(plan: Plan, feet: Floats) -> Indices:
+    """Hyperedges in the order of their spans, so that long ones pass above short ones."""
+    if len(plan.starts) == 1:
+        return np.zeros(0, dtype=np.int64)
+    own = feet[: plan.starts[-1]]
+    lows = np.minimum.reduceat(own, plan.starts[:-1], axis=0)
+    highs = np.maximum.reduceat(own, plan.starts[:-1], axis=0)
+    return np.argsort((highs - lows).max(axis=1), kind="stable")
+
+
+def _thread(
+    drawn: Plan,
+    edges: Indices,
+    feet: _Feet,
+    threads: Threads,
+    still: Still,
+    surroundings: Surroundings,
+    planes: Floats,
+    radii: Floats,
+    clearance: float,
+) -> Loom:
+    """Joins and tangents for the order of ``planes``."""
+    plan = drawn._replace(places=drawn.places.copy())
+    around = (feet.grid, feet.places, feet.owners, planes, radii)
+    settle_joins(plan, *around, clearance)
+    leaving = choose_tangents(plan, *around, clearance)
+    ends = inner_ends(plan, leaving, edges, radii)
+    return Loom(plan, leaving, ends, edges, threads, still, surroundings, radii, clearance)
+
+
+def _try(
+    loom: Loom, feet: _Feet, planes: Floats, lows: Floats, fixed: NDArray[np.bool_]
+) -> tuple[Weave, Indices]:
+    """Curves for the order of ``planes``, and the threads that want a higher one."""
+    plan, leaving, ends, edges = loom.plan, loom.leaving, loom.ends, loom.owners
+    still, radii, clearance = loom.still, loom.radii, loom.clearance
+    woven = len(loom.threads.radii)
+    around = (feet.grid, feet.places, feet.owners, planes, radii)
+    widths = np.full(woven, WIDTH)
+    ways = find_ways(plan, leaving, ends, *around, widths, clearance)
+    legs, owners = around_legs(plan, ends, edges, ways)
+    crossings = find_crossings(
+        np.concatenate([direct_legs(plan), legs, control_legs(still.segments)]),
+        np.concatenate([edges, owners, np.repeat(still.owners + woven, 3)]),
+        radii,
+        clearance,
+    )
+    order = np.argsort(planes, kind="stable")
+    planes = stack(crossings, order, lows, fixed, radii, clearance)
+
+    fabric, check = _harden(loom, ways, planes)
+    hit = np.zeros(len(still.planes), dtype=np.bool_)
+    standing = check.hyperedges[check.hyperedges >= woven]
+    hit[standing - woven] = True
+    made = Weave(
+        plan,
+        fabric,
+        leaving,
+        planes[:woven],
+        hit,
+        check.faults.count,
+        int(check.pinched.sum()),
+    )
+    return made, _troubled(check, check.pinched | ways.blocked, edges, planes, woven)
+
+
+def _harden(loom: Loom, ways: Ways, planes: Floats) -> tuple[Fabric, Check]:
+    """Courses that are made stricter where they are too near to something, and what that leaves.
+
+    Of two that are too near the softer one is made stricter, or both.
+    """
+    count = len(loom.owners)
+    strictness = np.full(count, SOFT)
+    active = np.ones(count, dtype=np.bool_)
+    while True:
+        fabric = loom.lay(ways, strictness, planes)
+        check = loom.check(fabric, active)
+        level = np.append(strictness, AROUND)
+        first, second = level[check.near].T
+        softer = np.zeros(count + 1, dtype=np.bool_)
+        softer[check.near[first <= second, 0]] = True
+        softer[check.near[second <= first, 1]] = True
+        softer[check.at_items] = True
+        changed = softer[:-1] & (strictness < AROUND)
+        # Going around nothing does not unbend an edge.
+        changed |= check.pinched & (strictness < STEEP)
+        if not changed.any():
+            return fabric, check
+        strictness[changed] += 1
+        active = changed | (check.edges & (strictness == AROUND))
+
+
+def _troubled(
+    check: Check, wrong: NDArray[np.bool_], edges: Indices, planes: Floats, woven: int
+) -> Indices:
+    """Threads with edges that are ``wrong`` (e,), and the lower ones of those that are too near."""
+    first, second = check.hyperedges.T
+    lower = np.where(planes[first] <= planes[second], first, second)
+    upper = np.where(planes[first] <= planes[second], second, first)
+    found = np.where(lower < woven, lower, upper)
+    return np.unique(np.concatenate([found, edges[wrong]]))

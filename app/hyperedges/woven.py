@@ -1,0 +1,190 @@
+"""Routings of the ``steiner`` kind: short trees, woven so that they keep clear of each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.arrays import Floats, Indices
+from app.hyperedges.clearance.obstacles import attached_items, obstacles_of
+from app.hyperedges.join_planes import choose_join_planes
+from app.hyperedges.joining import merge, select
+from app.hyperedges.routing import Routing
+from app.hyperedges.rows import rows_of, starts_of
+from app.hyperedges.weaving.faults import find_faults
+from app.hyperedges.weaving.loose import lay_loosely
+from app.hyperedges.weaving.numbering import number
+from app.hyperedges.weaving.plan import feet_of
+from app.hyperedges.weaving.threads import Still, Surroundings, Threads
+from app.hyperedges.weaving.weave import Progress, weave
+from app.placement.placement import Placement
+
+ARCH = 1.5
+"""Height of a plane above its attachments, over the root of span times radius.
+
+With tubes of radius 0.08, a quarter of a span of three units, and an eighth of one of fifteen.
+"""
+
+LEAST_RISE = 4.0
+"""Least height in radii: a bend and its way back."""
+
+HITS = 3
+"""How often hyperedges that an edit hits are woven anew with it, before all are."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Previous:
+    """An earlier layout: its placement and its routing.
+
+    ``numbers`` (h,): which of its hyperedges each hyperedge of the program was, -1 for new ones.
+    """
+
+    placement: Placement
+    routing: Routing
+    numbers: Indices
+
+
+def weave_all(
+    placement: Placement,
+    clearance: float,
+    join_heights: Floats,
+    previous: Previous | None = None,
+    progress: Progress = lambda _share: None,
+) -> Routing:
+    """Curves of all hyperedges that keep ``clearance``, if they can, from each other and items.
+
+    ``join_heights`` (h,) are join planes, NaN where they are to be chosen. Hyperedges of a
+    ``previous`` layout keep their curves to the last bit unless their attachments moved, or they
+    are in the way of what is new.
+    """
+    surroundings = Surroundings(obstacles_of(placement), attached_items(placement))
+    hyperedges = len(placement.radii)
+    kept = np.zeros(hyperedges, dtype=np.bool_)
+    if previous is not None:
+        kept = _unmoved(placement, join_heights, previous)
+        kept &= ~_at_items(kept, placement, previous, surroundings, clearance)
+    for attempt in range(HITS + 1):
+        if attempt == HITS:
+            kept[:] = False
+        chosen, standing = np.flatnonzero(~kept), np.flatnonzero(kept)
+        old = _standing(previous, standing)
+        threads = _threads(placement, clearance, join_heights, chosen)
+        still = Still.nothing() if old is None else _still(placement, standing, old)
+        renumbered = np.empty(hyperedges, dtype=np.int64)
+        renumbered[np.concatenate([chosen, standing])] = np.arange(hyperedges)
+        attached = surroundings.attached.copy()
+        attached[:, 0] = renumbered[attached[:, 0]]
+        attached = attached[np.lexsort((attached[:, 1], attached[:, 0]))]
+        woven = weave(
+            threads, still, Surroundings(surroundings.obstacles, attached), clearance, progress
+        )
+        if not woven.hit.any():
+            break
+        kept[standing[woven.hit]] = False
+    new = number(woven.plan, woven.fabric, woven.leaving, woven.planes, threads.radii)
+    if old is None:
+        return new
+    return merge(new, old, np.concatenate([chosen, standing]))
+
+
+def lay_all(placement: Placement, join_heights: Floats) -> Routing:
+    """Curves of all hyperedges in planes of their own, wherever others are."""
+    planes = choose_join_planes(placement, 0.0, join_heights)
+    threads = _threads(placement, 0.0, planes, np.arange(len(placement.radii)))
+    plan, fabric, leaving = lay_loosely(threads)
+    return number(plan, fabric, leaving, planes, threads.radii)
+
+
+def _threads(
+    placement: Placement, clearance: float, join_heights: Floats, chosen: Indices
+) -> Threads:
+    starts = placement.attachment_starts
+    rows = rows_of(starts, chosen)
+    counts = np.diff(starts)[chosen]
+    positions = placement.attachment_positions[rows]
+    begins = starts_of(counts)
+    radii = placement.radii[chosen]
+    heights = join_heights[chosen]
+    given = ~np.isnan(heights)
+    lows = heights
+    if len(chosen):
+        low = np.minimum.reduceat(positions, begins[:-1], axis=0)
+        high = np.maximum.reduceat(positions, begins[:-1], axis=0)
+        spans = np.hypot(high[:, 0] - low[:, 0], high[:, 1] - low[:, 1])
+        rises = np.maximum(ARCH * np.sqrt(spans * radii), LEAST_RISE * radii + clearance)
+        lows = np.where(given, heights, high[:, 2] + rises)
+    return Threads(positions, placement.attachment_directions[rows], begins, radii, lows, given)
+
+
+def _unmoved(placement: Placement, join_heights: Floats, previous: Previous) -> NDArray[np.bool_]:
+    """Which hyperedges (h,) attach where they did, with tubes as thick."""
+    old = previous.placement
+    same = previous.numbers >= 0
+    numbers = np.maximum(previous.numbers, 0)
+    if not same.any():
+        return same
+    counts, old_counts = np.diff(placement.attachment_starts), np.diff(old.attachment_starts)
+    same &= counts == old_counts[numbers]
+    same &= placement.radii == old.radii[numbers]
+    same &= np.isnan(join_heights) | (join_heights == previous.routing.join_planes[numbers])
+    here = rows_of(placement.attachment_starts, np.flatnonzero(same))
+    there = rows_of(old.attachment_starts, numbers[same])
+    equal = (placement.attachment_positions[here] == old.attachment_positions[there]).all(axis=1)
+    equal &= (placement.attachment_directions[here] == old.attachment_directions[there]).all(axis=1)
+    moved = np.repeat(np.flatnonzero(same), counts[same])[~equal]
+    same[moved] = False
+    return same
+
+
+def _standing(previous: Previous | None, standing: Indices) -> Routing | None:
+    if previous is None or len(standing) == 0:
+        return None
+    return select(previous.routing, previous.numbers[standing])
+
+
+def _still(placement: Placement, standing: Indices, old: Routing) -> Still:
+    rows = rows_of(placement.attachment_starts, standing)
+    counts = np.diff(placement.attachment_starts)[standing]
+    owners = np.repeat(np.arange(len(standing)), counts)
+    feet, _ = feet_of(
+        placement.attachment_positions[rows],
+        placement.attachment_directions[rows],
+        old.radii[owners],
+    )
+    return Still(
+        old.control_points,
+        np.repeat(np.arange(len(standing)), np.diff(old.segment_starts)),
+        feet,
+        owners,
+        old.join_planes,
+        old.radii,
+    )
+
+
+def _at_items(
+    kept: NDArray[np.bool_],
+    placement: Placement,
+    previous: Previous,
+    surroundings: Surroundings,
+    clearance: float,
+) -> NDArray[np.bool_]:
+    """Which of the hyperedges that are kept are too near to items now, (h,)."""
+    found = np.zeros(len(kept), dtype=np.bool_)
+    standing = np.flatnonzero(kept)
+    old = _standing(previous, standing)
+    if old is None:
+        return found
+    owners = np.repeat(standing, np.diff(old.segment_starts))
+    faults = find_faults(
+        old.control_points,
+        owners,
+        placement.radii[owners],
+        clearance,
+        surroundings,
+        np.ones(len(owners), dtype=np.bool_),
+        only_items=True,
+    )
+    found[owners[faults.at_items]] = True
+    return found

@@ -1,0 +1,38 @@
+"""Documents of the paper and of other people, certified clear: no two hyperedges touch."""
+
+from pathlib import Path
+
+import pytest
+
+from app.formats.registry import read
+from app.hyperedges.clearance.certificate import certify
+from app.hyperedges.route import route
+from app.notations.loader import load_notation
+from app.placement.place import place
+from app.settings import Settings
+from tests.hyperedges import sampling
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+DOCUMENTS = [
+    ("id3-clause-1", "tubeloom"),
+    ("id3-clause-2", "tubeloom"),
+    ("yosys/up3down5", "yosys"),
+    ("hif/e-coli", "hif"),
+    ("hif/lesmis", "hif"),
+]
+
+
+@pytest.mark.parametrize(("name", "source"), DOCUMENTS, ids=[name for name, _ in DOCUMENTS])
+def test_a_document_is_certified_clear(name: str, source: str) -> None:
+    program = read(source, (EXAMPLES / f"{name}.json").read_bytes(), Settings())
+    placement = place(program, load_notation(program.notation))
+    clearance = program.layout.clearance
+    assert clearance
+    routing = route(placement, curves="steiner", clearance=clearance)
+    certificate = certify(routing, placement, clearance)
+    conflicts = certificate.conflicts
+    assert list(zip(conflicts.first, conflicts.second, conflicts.lower, strict=True)) == []
+    assert certificate.certified
+    assert certificate.minimum >= clearance
+    seen = sampling.sample(routing)
+    assert sampling.tubes_too_near(seen, placement.radii, clearance) == set()
