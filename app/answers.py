@@ -5,14 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from app.output.media import SceneFormat
+from app.output.media import Compression, Parts, SceneFormat
 
 
 @dataclass(frozen=True, slots=True)
 class RenderOptions:
     """What belongs to one picture alone: its format, and its size in pixels.
 
-    ``source`` is the format of the document. The size also gives a glTF camera its aspect.
+    ``source`` is the format of the document. The size also gives a glTF camera its aspect. A print
+    shows ``parts`` of the scene, ``scale`` millimetres to a unit of the document. glTF is written
+    with ``compress``, and with hyperedges merged or not (``None``: if there are very many).
     """
 
     format: SceneFormat = SceneFormat.GLB
@@ -20,6 +22,10 @@ class RenderOptions:
     height: int = 768
     quality: Literal["draft"] = "draft"
     source: str = "tubeloom"
+    scale: float = 10.0
+    parts: Parts = "all"
+    compress: Compression = "none"
+    merge: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)

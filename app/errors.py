@@ -7,7 +7,8 @@
     │   ├── UnreadableDocument      it is not JSON at all
     │   ├── InvalidDocument         it is JSON, but does not follow the schema
     │   ├── InconsistentDocument    it follows the schema, but contradicts itself
-    │   └── DocumentTooLarge        it has more of something than the limits allow
+    │   ├── DocumentTooLarge        it has more of something than the limits allow
+    │   └── Unprintable             something in it has no closed body
     ├── UnknownName                 a format, notation, palette or material that does not exist
     ├── PictureTooLarge             more pixels than the limits allow
     ├── RendererUnavailable         no way to draw on this machine; says what to install
@@ -70,6 +71,10 @@ class InconsistentDocument(DocumentError):
 
 class DocumentTooLarge(DocumentError):
     """The document exceeds a limit of this service."""
+
+
+class Unprintable(DocumentError):
+    """Something in the document has no closed body that could be printed."""
 
 
 class UnknownName(TubeloomError):

@@ -22,9 +22,12 @@ from app.answers import (
 from app.arrays import Floats
 from app.errors import PictureTooLarge
 from app.formats import registry
+from app.hyperedges.clearance.certificate import certify
+from app.hyperedges.pinches import find_pinches
 from app.hyperedges.route import route
 from app.hyperedges.routing import Routing
 from app.notations.loader import load_notation
+from app.output.clearance_numbers import Verdict
 from app.output.draft import draw_draft
 from app.output.gltf import write_glb, write_gltf
 from app.output.gltf_packing import Packing
@@ -35,6 +38,7 @@ from app.output.stl import write_stl
 from app.output.threemf import write_3mf
 from app.placement.place import place
 from app.placement.placement import Placement
+from app.program.collection import collection_paused
 from app.program.digest import canonical
 from app.program.model import Program
 from app.scene.assemble import assemble
@@ -86,6 +90,17 @@ def render(
     progress: Progress = silent,
 ) -> Answer | Unchanged:
     """The scene of the document, in ``options.format``."""
+    with collection_paused():
+        return _render(data, options, settings, known, progress)
+
+
+def _render(
+    data: bytes,
+    options: RenderOptions,
+    settings: Settings,
+    known: frozenset[str],
+    progress: Progress,
+) -> Answer | Unchanged:
     if options.width * options.height > settings.max_pixels:
         raise PictureTooLarge(
             f"{options.width} by {options.height} pixels are more than the "
@@ -127,9 +142,11 @@ def layout(
     placement = place(program, load_notation(program.notation))
     progress("laying out hyperedges", 0.4)
     routing = route_program(program, placement)
+    progress("proving clearance", 0.5)
+    verdict = judge(program, placement, routing)
     progress("writing", 0.6)
     patches = patch_pairs(routing, program.layout.patch_rule) if options.patches else None
-    body = layout_numbers(program, placement, routing, patches)
+    body = layout_numbers(program, placement, routing, patches, verdict)
     progress("done", 1.0)
     return Answer(body, "application/json", etag, program.name)
 
@@ -173,7 +190,9 @@ def make_scene(
     if tubes_of is not None:
         tubes = tubes_of(program, routing)
     else:
-        tubes = make_tubes(program, routing, _tolerance(program, placement, routing, aspect, height))
+        tubes = make_tubes(
+            program, routing, _tolerance(program, placement, routing, aspect, height)
+        )
     progress("assembling the scene", 0.5)
     return assemble(program, notation, placement, tubes, aspect)
 
@@ -188,6 +207,13 @@ def route_program(program: Program, placement: Placement) -> Routing:
         clearance=program.layout.clearance,
         join_heights=_join_heights(program),
     )
+
+
+def judge(program: Program, placement: Placement, routing: Routing) -> Verdict | None:
+    """What is proven about distances; None where the document wants no clearance."""
+    if program.layout.clearance is None:
+        return None
+    return Verdict(certify(routing, placement, program.layout.clearance), find_pinches(routing))
 
 
 def _usual_curves(program: Program) -> Literal["steiner", "prose"]:

@@ -40,6 +40,9 @@ class Settings(BaseSettings):
         100_000, ge=1, description="Over all labels that are drawn together."
     )
     max_pixels: int = Field(4096 * 4096, ge=1)
+    max_print_triangles: int = Field(
+        4_000_000, ge=1, description="Of what a print is made from, before tubes are united."
+    )
 
 
 @lru_cache(maxsize=1)

@@ -9,11 +9,13 @@ import sys
 import termios
 from pathlib import Path
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from app import __version__
 from app.cli import main
+from app.output.stl import RECORD
 from tests.service import SMALL, large_program
 
 
@@ -26,7 +28,13 @@ def program(tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize(
     ("name", "start"),
-    [("out.glb", b"glTF"), ("out.gltf", b"{"), ("out.PNG", b"\x89PNG")],
+    [
+        ("out.glb", b"glTF"),
+        ("out.gltf", b"{"),
+        ("out.PNG", b"\x89PNG"),
+        ("out.stl", b"Binary STL"),
+        ("out.3mf", b"PK"),
+    ],
 )
 def test_the_ending_of_the_output_tells_the_format(program: Path, name: str, start: bytes) -> None:
     output = program.with_name(name)
@@ -40,6 +48,18 @@ def test_a_picture_has_the_size_that_was_asked_for(program: Path) -> None:
     arguments = ["render", str(program), "-o", str(output), "--width", "320", "--height", "200"]
     assert CliRunner().invoke(main, arguments).exit_code == 0
     assert struct.unpack(">II", output.read_bytes()[16:24]) == (320, 200)
+
+
+def test_a_print_has_the_scale_and_the_parts_that_were_asked_for(program: Path) -> None:
+    sizes = []
+    for arguments in ([], ["--parts", "hyperedges"], ["--scale", "1000"]):
+        output = program.with_name("out.stl")
+        done = CliRunner().invoke(main, ["render", str(program), "-o", str(output), *arguments])
+        assert done.exit_code == 0, done.output
+        corners = np.frombuffer(output.read_bytes(), RECORD, offset=84)["corners"]
+        sizes.append((len(corners), float(corners.max())))
+    assert sizes[1][0] < sizes[0][0] == sizes[2][0]
+    assert sizes[2][1] == pytest.approx(100 * sizes[0][1], rel=1e-5)
 
 
 def test_documents_come_and_answers_go_through_pipes() -> None:

@@ -28,6 +28,7 @@ from app.errors import (
     RendererUnavailable,
     TubeloomError,
     UnknownName,
+    Unprintable,
     UnreadableDocument,
     WorkerLost,
 )
@@ -73,6 +74,7 @@ KINDS: Mapping[type[Exception], Kind] = {
     InvalidDocument: Kind(400, "invalid-document", "The document does not follow its schema."),
     InconsistentDocument: Kind(422, "inconsistent-document", "The document contradicts itself."),
     DocumentTooLarge: Kind(413, "document-too-large", "The document exceeds a limit."),
+    Unprintable: Kind(422, "unprintable", "Something in the document cannot be printed."),
     UnknownName: Kind(422, "unknown-name", "The document names something that does not exist."),
     PictureTooLarge: Kind(422, "picture-too-large", "The picture would have too many pixels."),
     RendererUnavailable: Kind(503, "renderer-unavailable", "This machine cannot draw."),

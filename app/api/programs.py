@@ -31,13 +31,21 @@ NUMBERS: Mapping[str, str] = {"application/json": "json"}
 
 @router.post("/render", **describe("render"))
 async def render(request: Request, query: Annotated[RenderQuery, QueryParameters()]) -> Response:
-    """The scene of the posted program, as glTF or as a picture.
+    """The scene of the posted program, as glTF, as a picture, or for a printer.
 
     Without `format`, `Accept` decides; without both it is `model/gltf-binary`.
     """
     scene_format = query.format or choose(request.headers.get("accept"), SCENES)
     options = RenderOptions(
-        scene_format, query.width, query.height, query.quality, _source(request, query)
+        scene_format,
+        query.width,
+        query.height,
+        query.quality,
+        _source(request, query),
+        query.scale,
+        query.parts,
+        query.compress,
+        query.merge,
     )
     return await _answer(request, options, scene_format.value)
 

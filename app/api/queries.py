@@ -9,7 +9,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetCoreSchem
 from pydantic_core import PydanticCustomError, core_schema
 
 from app.formats.registry import FORMATS
-from app.output.media import SceneFormat
+from app.output.media import Compression, Parts, SceneFormat
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +59,24 @@ class RenderQuery(Query):
     )
     height: Pixels = Field(768, description="Of the picture, in pixels.")
     quality: Literal["draft"] = Field("draft", description="How a picture is drawn.")
+    scale: float = Field(
+        10.0,
+        ge=0.001,
+        le=1000.0,
+        allow_inf_nan=False,
+        description="Of a print (`stl`, `3mf`): millimetres to a unit of the document.",
+    )
+    parts: Parts = Field("all", description="Of a print: what of the scene it holds.")
+    compress: Compression = Field(
+        "none",
+        description="Of glTF: `quantize` (KHR_mesh_quantization) or `meshopt` "
+        "(EXT_meshopt_compression besides).",
+    )
+    merge: Flag | None = Field(
+        None,
+        description="Of glTF: draw many hyperedges at once, with the number of each at its "
+        "vertices; left out, above 1,000 hyperedges.",
+    )
 
 
 class LayoutQuery(Query):

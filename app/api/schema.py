@@ -18,6 +18,7 @@ from pydantic.json_schema import models_json_schema
 from app.api import problems
 from app.api.journal import HEADER as REQUEST_ID
 from app.api.layout_model import LayoutNumbers
+from app.formats.hypergraph import Hypergraph
 from app.formats.netlist import Netlist
 from app.formats.registry import FORMATS
 from app.output.media import SceneFormat
@@ -35,7 +36,11 @@ EXAMPLE = {
     ],
 }
 
-DOCUMENTS: Mapping[str, type[BaseModel]] = {"tubeloom": Program, "yosys": Netlist}
+DOCUMENTS: Mapping[str, type[BaseModel]] = {
+    "tubeloom": Program,
+    "yosys": Netlist,
+    "hif": Hypergraph,
+}
 """What the documents of each format follow."""
 
 NETLIST = {
@@ -56,7 +61,17 @@ NETLIST = {
     }
 }
 
-EXAMPLES: Mapping[str, Any] = {"tubeloom": EXAMPLE, "yosys": NETLIST}
+HYPERGRAPH = {
+    "network-type": "directed",
+    "nodes": [{"node": "water", "attrs": {"label": "H₂O"}}],
+    "incidences": [
+        {"edge": "burning", "node": "hydrogen", "direction": "tail", "weight": 2},
+        {"edge": "burning", "node": "oxygen", "direction": "tail"},
+        {"edge": "burning", "node": "water", "direction": "head", "weight": 2},
+    ],
+}
+
+EXAMPLES: Mapping[str, Any] = {"tubeloom": EXAMPLE, "yosys": NETLIST, "hif": HYPERGRAPH}
 
 _REFERENCES = "#/components/schemas/{model}"
 
@@ -67,7 +82,7 @@ _PROBLEMS: Mapping[int, str] = {
     406: "No format fits what is accepted.",
     413: "The document exceeds a limit.",
     415: "The body is not plain JSON.",
-    422: "The document contradicts itself, or too many pixels are asked for.",
+    422: "The document contradicts itself or cannot be printed, or has too many pixels.",
     500: "A worker process died over the document, twice.",
     503: "The service is busy, or cannot draw.",
     504: "The work took too long.",
@@ -159,7 +174,11 @@ def _contents(call: str) -> dict[str, Any]:
         case "layout":
             return {"application/json": {"schema": _reference(LayoutNumbers)}}
         case _:
-            return {"application/json": {"schema": _reference(Program)}}
+            return {
+                found.media_type: {"schema": _reference(DOCUMENTS[name])}
+                for name, found in FORMATS.items()
+                if found.writes
+            }
 
 
 def _problem(detail: str) -> dict[str, Any]:

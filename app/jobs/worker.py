@@ -58,7 +58,8 @@ def do(work: Work, document: bytes, settings: Settings) -> tuple[Reply, bytes]:
     stages: list[tuple[str, float]] = []
 
     def note(stage: str, _share: float) -> None:
-        stages.append((stage, time.perf_counter()))
+        if not stages or stages[-1][0] != stage:
+            stages.append((stage, time.perf_counter()))
 
     try:
         outcome = pipeline.answer(document, work.options, settings, work.known, note)

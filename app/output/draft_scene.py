@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from app.arrays import Faces, Floats, Singles
-from app.scene.rotation import matrices
+from app.placement.turning import matrices
 from app.scene.scene import Camera, Material, Node, Scene
 
 MOST_VERTICES = 1 << 20

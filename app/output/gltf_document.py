@@ -6,7 +6,6 @@ would take several times as long.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import sqrt
 from typing import Any
@@ -15,11 +14,11 @@ import numpy as np
 from pydantic_core import to_json
 
 from app import __version__
-from app.output.gltf_buffers import Packed, pack
+from app.output.gltf_packing import Packed, PackedNode, Packing, pack
+from app.output.gltf_views import MESHOPT
 from app.scene.camera import Axes, axes_from
 from app.scene.rotation import quaternion
-from app.scene.scene import Camera, Light, Material, Node, Scene
-from app.solids.mesh import Mesh
+from app.scene.scene import Camera, Light, Material, Scene
 
 LIGHTS = "KHR_lights_punctual"
 
@@ -31,7 +30,7 @@ _NOWHERE, _UPRIGHT = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """The JSON document in two parts, and what belongs into its only buffer.
+    """The JSON document in two parts, and what belongs into its buffer.
 
     ``json`` is whole but for ``buffers`` and for the entries of ``tables``, which are JSON texts.
     """
@@ -48,23 +47,26 @@ class Document:
             for name, entries in self.tables.items()
             if entries  # glTF has no empty lists
         ]
-        if self.packed.length:
-            pieces.append(b',"buffers":[{"byteLength":%d' % self.packed.length)
-            pieces += [buffer, b"}]"]
+        stored = self.packed.buffer
+        if stored.length:
+            pieces.append(b',"buffers":[{"byteLength":%d' % stored.length)
+            pieces += [buffer, b"}"]
+            if stored.fallback:
+                # What encoded views are read into; there is nothing to be loaded instead.
+                pieces.append(
+                    b',{"byteLength":%d,"extensions":{"%b":{"fallback":true}}}'
+                    % (stored.fallback, MESHOPT.encode())
+                )
+            pieces.append(b"]")
         return b"".join([*pieces, b"}"])
 
 
-def describe(scene: Scene) -> Document:
+def describe(scene: Scene, packing: Packing) -> Document:
     """One root node that turns z up to y up; below it all of the scene, its lights and camera."""
-    meshes: dict[int, Mesh] = {}  # by identity; the scene keeps them alive
-    for node in scene.nodes:
-        for primitive in node.primitives:
-            if len(primitive.mesh.faces):
-                meshes.setdefault(id(primitive.mesh), primitive.mesh)
-    packed = pack(list(meshes.values()))
-    shown = _Shown(scene.materials, packed, {key: place for place, key in enumerate(meshes)})
+    packed = pack(scene, packing)
+    shown = _Shown(packed)
 
-    nodes = [shown.node(node) for node in scene.nodes]
+    nodes = [shown.node(node) for node in packed.nodes]
     nodes += [
         {
             "name": f"{light.name} light",
@@ -86,11 +88,17 @@ def describe(scene: Scene) -> Document:
         "nodes": [root, *nodes],
         "cameras": [_camera(scene.camera)],
     }
+    extensions = dict(packed.extensions)
     if scene.lights:
-        document["extensionsUsed"] = [LIGHTS]
+        extensions[LIGHTS] = False
         document["extensions"] = {LIGHTS: {"lights": [_light(light) for light in scene.lights]}}
-    if packed.views:
-        document["bufferViews"] = packed.views
+    if extensions:
+        document["extensionsUsed"] = list(extensions)
+    required = [name for name, is_required in extensions.items() if is_required]
+    if required:
+        document["extensionsRequired"] = required
+    if packed.buffer.views:
+        document["bufferViews"] = packed.buffer.views
     tables = {
         "materials": list(map(_material, shown.materials)),
         "meshes": shown.meshes,
@@ -102,43 +110,35 @@ def describe(scene: Scene) -> Document:
 class _Shown:
     """Meshes and materials in the order in which nodes first show them, each only once."""
 
-    def __init__(
-        self, materials: tuple[Material, ...], packed: Packed, places: Mapping[int, int]
-    ) -> None:
+    def __init__(self, packed: Packed) -> None:
         self.materials: list[Material] = []
         self.meshes: list[bytes] = []
-        self._all, self._packed, self._places = materials, packed, places
+        self._primitives = packed.primitives
+        self._all = packed.materials
         self._material_numbers: dict[int, int] = {}
         self._mesh_numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
-    def node(self, node: Node) -> dict[str, Any]:
+    def node(self, node: PackedNode) -> dict[str, Any]:
         """A node with its mesh; what is as glTF assumes it anyway is left out."""
         found: dict[str, Any] = {"name": node.name}
-        parts = tuple(
-            [
-                (self._places[id(part.mesh)], part.material)
-                for part in node.primitives
-                if len(part.mesh.faces)
-            ]
-        )
-        if parts:
-            number = self._mesh_numbers.setdefault(parts, len(self.meshes))
+        if node.parts:
+            number = self._mesh_numbers.setdefault(node.parts, len(self.meshes))
             if number == len(self.meshes):
-                self.meshes.append(self._mesh(parts))
+                self.meshes.append(self._mesh(node.parts))
             found["mesh"] = number
         if node.translation != _NOWHERE:
             found["translation"] = node.translation
         if node.rotation != _UPRIGHT:
             found["rotation"] = node.rotation
+        if node.scale != 1.0:
+            found["scale"] = [node.scale] * 3
         if node.extras:
             found["extras"] = node.extras
         return found
 
     def _mesh(self, parts: tuple[tuple[int, int], ...]) -> bytes:
-        normals = len(self._packed.indices)
         primitives = [
-            b'{"attributes":{"POSITION":%d,"NORMAL":%d},"indices":%d,"material":%d}'
-            % (place, normals + place, self._packed.indices[place], self._material(material))
+            b'{%b,"material":%d}' % (self._primitives[place], self._material(material))
             for place, material in parts
         ]
         return b'{"primitives":[%b]}' % b",".join(primitives)

@@ -37,7 +37,9 @@ def assemble(
     )
     materials: dict[Material, int] = {}
     items = item_nodes(program, notation, placement, materials)
-    hyperedges, tube_boxes = hyperedge_nodes(program, notation, tubes, background, materials)
+    hyperedges, tube_boxes = hyperedge_nodes(
+        program, notation, tubes, placement.radii, background, materials
+    )
     nodes = items + hyperedges
     reach = Reach.of(nodes, np.concatenate([_boxes(items), tube_boxes]))
     bounds = reach.bounds
@@ -66,12 +68,13 @@ def _boxes(nodes: Sequence[Node]) -> Floats:
     if not meshes:
         return found
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes.values())])
-    vertices = np.concatenate([mesh.vertices for mesh in meshes.values()])
-    around = dict(zip(meshes, boxes(vertices, starts), strict=True))
-    for number, node in enumerate(nodes):
-        if node.primitives:
-            parts = np.array([around[id(part.mesh)] for part in node.primitives])
-            found[number] = parts[:, 0].min(axis=0), parts[:, 1].max(axis=0)
+    around = boxes(np.concatenate([mesh.vertices for mesh in meshes.values()]), starts)
+    places = {key: place for place, key in enumerate(meshes)}
+    solid = [number for number, node in enumerate(nodes) if node.primitives]
+    parts = around[[places[id(part.mesh)] for node in nodes for part in node.primitives]]
+    first = np.cumsum([0, *(len(nodes[number].primitives) for number in solid)])[:-1]
+    found[solid, 0] = np.minimum.reduceat(parts[:, 0], first, axis=0)
+    found[solid, 1] = np.maximum.reduceat(parts[:, 1], first, axis=0)
     return found
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 
 from app.arrays import Floats, Indices, Singles
 
@@ -19,10 +20,52 @@ def boxes(vertices: Singles, starts: Indices) -> Floats:
 [[5.0, 5.0, 5.0], [5.0, 5.0, 5.0]]]
     """
     found = np.zeros((len(starts) - 1, 2, 3))
-    filled = np.flatnonzero(np.diff(starts))
-    if len(filled):
-        first = starts[filled]
-        end = starts[filled[-1] + 1]
-        found[filled, 0] = np.minimum.reduceat(vertices[:end], first, axis=0)
-        found[filled, 1] = np.maximum.reduceat(vertices[:end], first, axis=0)
+    _enclose(vertices, starts, found)
     return found
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _enclose(vertices: Singles, starts: Indices, found: Floats) -> None:
+    for group in range(len(starts) - 1):
+        first, last = starts[group], starts[group + 1]
+        if first == last:
+            continue
+        for axis in range(3):
+            low = high = vertices[first, axis]
+            for vertex in range(first + 1, last):
+                low, high = min(low, vertices[vertex, axis]), max(high, vertices[vertex, axis])
+            found[group, 0, axis], found[group, 1, axis] = low, high
+
+
+def around_their_middles(vertices: Singles, starts: Indices) -> tuple[Singles, Singles, Floats]:
+    """Groups of vertices (v, 3) moved to the origin, by how much (g, 3), and their boxes there.
+
+    Groups and boxes (g, 2, 3) are as in `boxes`. Each group is moved by the middle of its box,
+    rounded to single precision: so the difference loses nothing where coordinates are large.
+    """
+    count = len(starts) - 1
+    moved = np.empty_like(vertices)
+    middles = np.zeros((count, 3), dtype=np.float32)
+    found = np.zeros((count, 2, 3))
+    _center(vertices, starts, moved, middles, found)
+    return moved, middles, found
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _center(
+    vertices: Singles, starts: Indices, moved: Singles, middles: Singles, found: Floats
+) -> None:
+    for group in range(len(starts) - 1):
+        first, last = starts[group], starts[group + 1]
+        if first == last:
+            continue
+        for axis in range(3):
+            low = high = vertices[first, axis]
+            for vertex in range(first + 1, last):
+                low, high = min(low, vertices[vertex, axis]), max(high, vertices[vertex, axis])
+            middle = np.float32(0.5 * (np.float64(low) + np.float64(high)))
+            middles[group, axis] = middle
+            found[group, 0, axis] = np.float64(low) - middle
+            found[group, 1, axis] = np.float64(high) - middle
+            for vertex in range(first, last):
+                moved[vertex, axis] = vertices[vertex, axis] - middle

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from app.arrays import Floats
 from app.notations.notation import Notation
 from app.program.model import Hyperedge, Program
-from app.scene.boxes import boxes
+from app.scene.boxes import around_their_middles
 from app.scene.color import srgb_of
 from app.scene.materials import make_materials
 from app.scene.palette import colors
@@ -24,47 +22,51 @@ def hyperedge_nodes(
     program: Program,
     notation: Notation,
     tubes: Tubes,
+    radii: Floats,
     background: Floats | None,
     materials: dict[Material, int],
 ) -> tuple[list[Node], Floats]:
     """One node for each hyperedge, in the order of the document, and their boxes (h, 2, 3).
 
-    ``background`` is sRGB (3,) or ``None``. Vertices and boxes are relative to the node's
-    translation. New materials join ``materials``, which numbers them.
+    ``radii`` (h,) are the tubes'; ``background`` is sRGB (3,) or ``None``. Vertices and boxes are
+    relative to the node's translation. New materials join ``materials``, which numbers them.
     """
-    around = boxes(tubes.vertices, tubes.vertex_starts)
-    middles = around.mean(axis=1)
-    counts = np.diff(tubes.vertex_starts)
-    # The middle is rounded to single precision first: so the difference loses nothing where
-    # coordinates are large.
-    offsets = middles.astype(np.float32)
-    vertices = np.subtract(tubes.vertices, np.repeat(offsets, counts, axis=0))
-    own = Tubes(vertices, tubes.normals, tubes.faces, tubes.vertex_starts, tubes.face_starts)
-    translations = offsets.astype(np.float64)
+    vertices, middles, around = around_their_middles(tubes.vertices, tubes.vertex_starts)
+    first_vertices, first_faces = tubes.vertex_starts.tolist(), tubes.face_starts.tolist()
     nodes = [
         _node(
             hyperedge,
-            own.mesh(number),
+            Mesh(vertices[start:end], tubes.normals[start:end], tubes.faces[first:last]),
             materials.setdefault(material, len(materials)),
             (x, y, z),
+            radius,
         )
-        for number, (hyperedge, material, (x, y, z)) in enumerate(
-            zip(
-                program.hyperedges,
-                _materials(program, notation, background),
-                translations.tolist(),
-                strict=True,
-            )
+        for hyperedge, start, end, first, last, material, (x, y, z), radius in zip(
+            program.hyperedges,
+            first_vertices[:-1],
+            first_vertices[1:],
+            first_faces[:-1],
+            first_faces[1:],
+            _materials(program, notation, background),
+            middles.tolist(),
+            radii.tolist(),
+            strict=True,
         )
     ]
-    return nodes, around - translations[:, None]
+    return nodes, around
 
 
 def _node(
-    hyperedge: Hyperedge, mesh: Mesh, material: int, translation: tuple[float, float, float]
+    hyperedge: Hyperedge,
+    mesh: Mesh,
+    material: int,
+    translation: tuple[float, float, float],
+    radius: float,
 ) -> Node:
     primitives = (Primitive(mesh, material),) if len(mesh.faces) else ()
-    return Node(hyperedge.id, "hyperedge", primitives, translation, UPRIGHT, _extras(hyperedge))
+    return Node(
+        hyperedge.id, "hyperedge", primitives, translation, UPRIGHT, _extras(hyperedge), radius
+    )
 
 
 def _materials(program: Program, notation: Notation, background: Floats | None) -> list[Material]:

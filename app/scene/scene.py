@@ -22,6 +22,10 @@ class Material:
     metallic: float
     roughness: float
 
+    def __hash__(self) -> int:
+        """Of the name alone, which says all the rest: each of very many hyperedges has its own."""
+        return hash(self.name)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Primitive:
@@ -37,7 +41,7 @@ class Node:
 
     ``primitives`` are in the node's own axes; ``translation`` and ``rotation`` (quaternion x, y,
     z, w) place them in the world. ``shows`` says of what kind it is; ``extras`` carry id, kind,
-    label and data.
+    label and data. ``radius`` is that of a hyperedge's tubes, where it is known.
     """
 
     name: str
@@ -46,6 +50,7 @@ class Node:
     translation: tuple[float, float, float]
     rotation: tuple[float, float, float, float]
     extras: Mapping[str, Any]
+    radius: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

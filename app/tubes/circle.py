@@ -8,30 +8,36 @@ import numpy as np
 
 from app.arrays import Floats, Indices, Singles
 
-FEWEST_SIDES = 6
+FEWEST_SIDES = 4
+"""Of tubes so far away that they are hardly more than a line."""
+
 MOST_SIDES = 128
 """No picture shows more, whatever the tolerance asks for."""
 
 
-def sides_of(radii: Floats, tolerance: float) -> Indices:
+def sides_of(radii: Floats, tolerance: float | Floats) -> Indices:
     """Sides of the tubes of h hyperedges, (h,), so that no chord is off by more than ``tolerance``.
 
-    Even, so that a patch pair has as many on its top as on its bottom; at least `FEWEST_SIDES`,
-    at most `MOST_SIDES`. Raises ValueError where the tolerance is not positive.
+    One tolerance for all, or one for each (h,). Even, so that a patch pair has as many on its top
+    as on its bottom; at least `FEWEST_SIDES`, at most `MOST_SIDES`. Raises ValueError where a
+    tolerance is not positive.
 
     >>> sides_of(np.array([1.0, 2.0, 1e9]), 0.02).tolist()
     [16, 24, 128]
     """
-    if not tolerance > 0.0:
-        raise ValueError(f"A tolerance must be positive, not {tolerance!r}.")
+    if not np.all(np.greater(tolerance, 0.0)):
+        raise ValueError(f"A tolerance must be positive, not {np.min(tolerance)!r}.")
     half_angles = np.arccos(np.maximum(1.0 - tolerance / np.maximum(radii, tolerance), 0.0))
     wanted = np.pi / np.maximum(half_angles, np.pi / MOST_SIDES)
     sides = np.maximum(2 * np.ceil(0.5 * wanted - 1e-9), FEWEST_SIDES)
     return np.asarray(sides, dtype=np.int64)
 
 
-def tolerances_of(radii: Floats, tolerance: float) -> Floats:
-    """What ``tolerance`` comes to for each of h radii, (h,), with `MOST_SIDES` as the finest."""
+def tolerances_of(radii: Floats, tolerance: float | Floats) -> Floats:
+    """What ``tolerance``, one or (h,), comes to for each of h radii, (h,).
+
+    `MOST_SIDES` are the finest there are.
+    """
     return np.asarray(np.maximum(tolerance, radii * (1.0 - np.cos(np.pi / MOST_SIDES))))
 
 

@@ -43,7 +43,7 @@ def patch_pairs(routing: Routing, rule: Rule) -> Floats:
     return _pairs(routing, routing.radii[hyperedges], ends_of(routing, hyperedges), rule)
 
 
-def patch_tubes(routing: Routing, rule: Rule, tolerance: float) -> Tubes:
+def patch_tubes(routing: Routing, rule: Rule, tolerance: float | Floats) -> Tubes:
     """The patch pairs of `patch_pairs` as triangles, with normals from their partial derivatives.
 
     Top and bottom share the vertices of their seams. Ends are closed: rounded at attachments, flat

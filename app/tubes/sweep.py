@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
+from app.arrays import Faces, Floats, Singles
 from app.hyperedges.routing import Routing
 from app.tubes.circle import cap_rings, circles, latitudes
-from app.tubes.stacks import room_for, stack_rings, strips
+from app.tubes.stacks import Stacks, room_for, stack_rings, strips
 from app.tubes.sweep_kernel import fill_swept
-from app.tubes.tessellation import tessellation_of
+from app.tubes.tessellation import Tessellation, tessellation_of
 from app.tubes.tubes import Tubes
 
 
-def sweep(routing: Routing, tolerance: float) -> Tubes:
+def sweep(routing: Routing, tolerance: float | Floats) -> Tubes:
     """Tubes of a circle swept along every segment, with normals that stand square on the curve.
 
     What one sees: tubes of the same thickness everywhere, round at attachments, and at joins three
@@ -18,17 +22,26 @@ def sweep(routing: Routing, tolerance: float) -> Tubes:
     the bit in positions and normals. Frames turn as little as can be along a segment, and there is
     no seam.
 
-    No chord around a tube is off by more than ``tolerance`` (document units), nor one along it;
+    No chord around a tube is off by more than ``tolerance`` (document units; one for all, or one
+    for each hyperedge, (h,)), nor one along it;
     `app.tubes.circle.MOST_SIDES` and a millionth of a segment's length bound how fine it gets.
     Segments of zero length become balls; no position is NaN, and every normal is a unit vector.
     Equal counts of rings and sides give equal faces. Raises ValueError where the tolerance is not
     positive.
     """
     plan = tessellation_of(routing, tolerance)
-    ends = plan.ends
-    caps = ends.free * cap_rings(plan.sides)[:, None]
     starts = routing.segment_starts
-    stacks = stack_rings(starts, plan.sides, plan.rings.counts, caps, ends.free)
+    stacks, vertices, normals, faces = stack_tubes(routing, plan, plan.ends.free)
+    return Tubes(vertices, normals, faces, stacks.vertices[starts], stacks.faces[starts])
+
+
+def stack_tubes(
+    routing: Routing, plan: Tessellation, rounded: NDArray[np.bool_]
+) -> tuple[Stacks, Singles, Singles, Faces]:
+    """Stacks of rings with vertices, normals and faces; those ends that are ``rounded`` (s, 2)."""
+    ends = plan.ends
+    caps = rounded * cap_rings(plan.sides)[:, None]
+    stacks = stack_rings(routing.segment_starts, plan.sides, plan.rings.counts, caps, rounded)
     vertices, normals, faces = room_for(stacks)
     fill_swept(
         0,
@@ -58,4 +71,4 @@ def sweep(routing: Routing, tolerance: float) -> Tubes:
         normals.reshape(-1),
         faces.reshape(-1),
     )
-    return Tubes(vertices, normals, faces, stacks.vertices[starts], stacks.faces[starts])
+    return stacks, vertices, normals, faces

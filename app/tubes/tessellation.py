@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.arrays import Indices
+from app.arrays import Floats, Indices
 from app.hyperedges.routing import Routing
 from app.tubes.circle import sides_of, tolerances_of
 from app.tubes.ends import Ends, ends_of
@@ -23,10 +23,11 @@ class Tessellation:
     rings: RingPlan
 
 
-def tessellation_of(routing: Routing, tolerance: float) -> Tessellation:
+def tessellation_of(routing: Routing, tolerance: float | Floats) -> Tessellation:
     """Sides by radius, the same for a whole hyperedge, and rings by curvature.
 
-    No chord around a tube is off by more than ``tolerance`` (document units), nor one along it.
+    No chord around a tube is off by more than ``tolerance`` (document units; one for all, or one
+    for each hyperedge, (h,)), nor one along it.
     Raises ValueError where the tolerance is not positive.
     """
     counts = np.diff(routing.segment_starts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,6 +31,21 @@ class Tubes:
         vertices = slice(self.vertex_starts[hyperedge], self.vertex_starts[hyperedge + 1])
         faces = slice(self.face_starts[hyperedge], self.face_starts[hyperedge + 1])
         return Mesh(self.vertices[vertices], self.normals[vertices], self.faces[faces])
+
+    @staticmethod
+    def of(meshes: Sequence[Mesh]) -> Tubes:
+        """The meshes of h hyperedges, one after another."""
+        if not meshes:
+            return Tubes.none()
+        vertex_starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+        face_starts = np.cumsum([0, *(len(mesh.faces) for mesh in meshes)])
+        return Tubes(
+            np.concatenate([mesh.vertices for mesh in meshes]),
+            np.concatenate([mesh.normals for mesh in meshes]),
+            np.concatenate([mesh.faces for mesh in meshes]),
+            vertex_starts,
+            face_starts,
+        )
 
     @staticmethod
     def none() -> Tubes:

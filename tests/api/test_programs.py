@@ -4,7 +4,7 @@ import struct
 import httpx
 import pytest
 
-from app.api.schema import NETLIST
+from app.api.schema import HYPERGRAPH, NETLIST
 from tests.service import SMALL
 
 
@@ -127,6 +127,18 @@ def test_a_netlist_is_known_by_its_media_type(client: httpx.Client) -> None:
     )
     assert response.status_code == 200, response.text
     assert client.post("/v1/layout", json=response.json()).status_code == 200
+
+
+def test_a_hypergraph_becomes_a_program_and_a_program_a_hypergraph(client: httpx.Client) -> None:
+    media_type = "application/vnd.hif+json"
+    response = client.post(
+        "/v1/convert", content=json.dumps(HYPERGRAPH), headers={"content-type": media_type}
+    )
+    assert response.status_code == 200, response.text
+    again = client.post("/v1/convert?to=hif", json=response.json())
+    assert again.headers["content-type"] == media_type
+    assert again.json()["incidences"] == HYPERGRAPH["incidences"]
+    assert client.post("/v1/render?from=hif", json=HYPERGRAPH).status_code == 200
 
 
 def test_answers_say_where_the_time_went(client: httpx.Client) -> None:

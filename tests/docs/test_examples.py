@@ -23,6 +23,14 @@ def blocks(language: str) -> list[tuple[str, str]]:
     return [(page.name, block) for page in PAGES for block in fence.findall(page.read_text())]
 
 
+SIGNATURES = {
+    ".png": b"\x89PNG",
+    ".glb": b"glTF",
+    ".json": b"{",
+    ".stl": b"Binary STL",
+    ".3mf": b"PK",
+}
+
 COMMANDS = [
     pytest.param(block, id=f"{name} {number}")
     for number, (name, block) in enumerate(blocks("sh"))
@@ -52,8 +60,7 @@ def test_commands_do_what_they_say(commands: str, service: Service, tmp_path: Pa
     assert made
     for path in made:
         data = path.read_bytes()
-        signature = {".png": b"\x89PNG", ".glb": b"glTF", ".json": b"{"}[path.suffix]
-        assert data.startswith(signature)
+        assert data.startswith(SIGNATURES[path.suffix])
 
 
 @pytest.mark.parametrize(("page", "block"), blocks("json"))

@@ -1,7 +1,9 @@
 // Prints what three.js finds in each file named on the command line, as JSON: every object with
-// its name, user data, place in the world and number of triangles.
+// its name, user data, place in the world, number of triangles and vertex attributes; and whatever
+// three.js warned of.
 import { readFile } from 'node:fs/promises';
 import { Box3 } from 'three';
+import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 // Browsers have it, Node has not; the loader reports its progress with it.
@@ -25,14 +27,22 @@ function describe(object) {
     low: box.min.toArray(),
     high: box.max.toArray(),
     triangles: triangles(object),
+    attributes: object.isMesh ? Object.keys(object.geometry.attributes).sort() : [],
   };
+}
+
+let warnings = [];
+for (const level of ['warn', 'error']) {
+  console[level] = (...words) => warnings.push(words.join(' '));
 }
 
 const found = [];
 for (const path of process.argv.slice(2)) {
   const { buffer, byteOffset, byteLength } = await readFile(path);
   const data = buffer.slice(byteOffset, byteOffset + byteLength);
-  const { scene, cameras } = await new GLTFLoader().parseAsync(data, '');
+  warnings = [];
+  const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
+  const { scene, cameras } = await loader.parseAsync(data, '');
   scene.updateMatrixWorld(true);
   const objects = [];
   scene.traverse((object) => objects.push(describe(object)));
@@ -42,6 +52,7 @@ for (const path of process.argv.slice(2)) {
     cameras: cameras.length,
     view: camera.matrixWorldInverse.elements,
     projection: camera.projectionMatrix.elements,
+    warnings,
   });
 }
 process.stdout.write(JSON.stringify(found));

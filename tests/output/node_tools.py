@@ -26,10 +26,21 @@ def load(files: Sequence[Path]) -> list[dict[str, Any]]:
     return _run("load.mjs", files)
 
 
-def _run(script: str, files: Sequence[Path]) -> list[dict[str, Any]]:
+def run_module(code: str, files: Sequence[Path]) -> list[dict[str, Any]]:
+    """What a module prints as JSON; it finds the files' names in ``process.argv``, from 2 on."""
+    return _run("-", files, code)
+
+
+def _run(script: str, files: Sequence[Path], code: str = "") -> list[dict[str, Any]]:
     _install()
     done = subprocess.run(
-        ["node", script, *map(str, files)], cwd=FOLDER, capture_output=True, check=False
+        ["node", "--input-type=module", script, *map(str, files)]
+        if code
+        else ["node", script, *map(str, files)],
+        cwd=FOLDER,
+        input=code.encode(),
+        capture_output=True,
+        check=False,
     )
     assert done.returncode == 0, done.stderr.decode()
     found: list[dict[str, Any]] = json.loads(done.stdout)

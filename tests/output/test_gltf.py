@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from app import __version__
 from app.output.gltf import write_glb, write_gltf
-from app.output.gltf_buffers import MOST_SHORT
+from app.output.gltf_chunks import MOST_SHORT
 from app.scene.scene import Node, Primitive, Scene
 from app.solids.mesh import Mesh
 from tests.output.gltf_reader import Asset

@@ -22,7 +22,8 @@ def test_there_are_examples() -> None:
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(EXAMPLES)))
 def test_an_example_opens_everywhere(document: Path, tmp_path: Path) -> None:
-    source = "yosys" if document.parent.name == "yosys" else "tubeloom"
+    folder = document.parent.name
+    source = folder if folder in registry.FORMATS else "tubeloom"
     program = registry.read(source, document.read_bytes(), Settings())
     scene = make_scene(program, aspect=4 / 3)
     files = [tmp_path / "scene.glb", tmp_path / "scene.gltf"]

@@ -32,7 +32,7 @@ def test_sides_are_even_and_as_few_as_the_tolerance_allows(radius: float, tolera
 
 
 def test_hand_worked_sides() -> None:
-    assert sides_of(np.array([1.0, 1.0 / (1 - np.cos(np.pi / 12))]), 1.0).tolist() == [6, 12]
+    assert sides_of(np.array([1.0, 1.0 / (1 - np.cos(np.pi / 12))]), 1.0).tolist() == [4, 12]
     assert sides_of(np.array([0.1]), 0.002).tolist() == [16]
 
 

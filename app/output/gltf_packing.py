@@ -1,0 +1,221 @@
+"""How a scene is packed into glTF's buffer: what is merged, and what is compressed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from math import inf
+from typing import Any
+
+import numpy as np
+
+from app.output.gltf_blocks import Block, block_of, block_of_chunk
+from app.output.gltf_chunks import Chunk, chunks_of
+from app.output.gltf_numbers import MOST_STEPS, fits, spacing
+from app.output.gltf_views import MESHOPT, Laid, lay
+from app.output.media import Compression
+from app.scene.scene import Material, Node, Scene
+from app.solids.mesh import Mesh
+
+QUANTIZATION = "KHR_mesh_quantization"
+FEATURES = "EXT_mesh_features"
+
+MANY = 1_000
+"""Hyperedges up to which each is a node of its own, unless asked otherwise: a viewer draws so many
+in no time, and editors find them by name."""
+
+_UPRIGHT = (0.0, 0.0, 0.0, 1.0)
+
+_THREADS = 2
+"""Blocks made at once: most of the time goes into encoding, which needs no Python."""
+
+
+@dataclass(frozen=True, slots=True)
+class Packing:
+    """What is asked for: ``merge`` of hyperedges or not, ``None`` if there are more than `MANY`.
+
+    >>> Packing().merges(MANY), Packing().merges(MANY + 1), Packing(merge=True).merges(1)
+    (False, True, True)
+    """
+
+    compress: Compression = "none"
+    merge: bool | None = None
+
+    def merges(self, hyperedges: int) -> bool:
+        """Whether so many hyperedges are merged."""
+        return hyperedges > MANY if self.merge is None else self.merge
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PackedNode:
+    """A node of the file. ``parts`` are numbers of primitives, each with that of its material."""
+
+    name: str
+    translation: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+    scale: float
+    extras: Mapping[str, Any]
+    parts: tuple[tuple[int, int], ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Packed:
+    """Nodes with what they show. ``primitives`` and ``accessors`` are JSON texts.
+
+    ``materials`` are the scene's, and then those of chunks.
+
+    A primitive's text lacks its braces and its material.
+    """
+
+    nodes: list[PackedNode]
+    materials: list[Material]
+    primitives: list[bytes]
+    accessors: list[bytes]
+    buffer: Laid
+    extensions: dict[str, bool]
+    """Names of extensions used, and whether a reader must know them."""
+
+
+def pack(scene: Scene, packing: Packing) -> Packed:
+    """The scene's nodes and triangles, merged and compressed as ``packing`` says."""
+    plan = _plan(scene, packing)
+    blocks = _made(plan.tasks)
+    first_view = first_accessor = 0
+    accessors: list[bytes] = []
+    primitives: list[bytes] = []
+    for block in blocks:
+        accessors += [
+            b'{"bufferView":%d,%b}' % (first_view + accessor.view, accessor.text)
+            for accessor in block.accessors
+        ]
+        names = b",".join(b'"%b":%%d' % name.encode() for name in block.attributes)
+        text = b'"attributes":{%b},"indices":%%d' % names
+        primitives += [
+            text % tuple([first_accessor + number for number in found])
+            for found in block.primitives
+        ]
+        first_view += len(block.views)
+        first_accessor += len(block.accessors)
+    # The chunks' primitives come last.
+    for number, chunk in enumerate(reversed(plan.chunks), start=1):
+        primitives[-number] += b',"extensions":{"%b":%b}' % (FEATURES.encode(), _features(chunk))
+    extensions = {}
+    if plan.chunks:
+        extensions[FEATURES] = False
+    if blocks and packing.compress != "none":
+        extensions[QUANTIZATION] = True
+        if packing.compress == "meshopt":
+            extensions[MESHOPT] = True
+    views = [view for block in blocks for view in block.views]
+    return Packed(plan.nodes, plan.materials, primitives, accessors, lay(views), extensions)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Plan:
+    """Nodes, and what makes the blocks of their primitives: one for each of the chunks, last."""
+
+    nodes: list[PackedNode]
+    materials: list[Material]
+    tasks: list[Callable[[], Block]]
+    chunks: list[Chunk]
+
+
+def _plan(scene: Scene, packing: Packing) -> _Plan:
+    drawn = [node for node in scene.nodes if node.shows == "hyperedge" and _is_simple(node)]
+    chunks = chunks_of(drawn, scene.materials) if drawn and packing.merges(len(drawn)) else []
+    merged = set(map(id, drawn)) if chunks else set()
+    kept = [node for node in scene.nodes if id(node) not in merged]
+    thinnest = min([node.radius for node in drawn if node.radius is not None], default=inf)
+    finest = spacing(thinnest)
+    meshes = _meshes(kept)
+    steps = {} if packing.compress == "none" else _steps(kept)
+    floating = [key for key in meshes if key not in steps]
+    gridded = [key for key in meshes if key in steps]
+    tasks: list[Callable[[], Block]] = []
+    if floating:
+        found = [meshes[key] for key in floating]
+        tasks.append(partial(block_of, found, packing.compress, finest))
+    if gridded:
+        found = [meshes[key] for key in gridded]
+        widths = np.array([steps[key] for key in gridded])
+        tasks.append(partial(block_of, found, packing.compress, finest, widths))
+    tasks += [partial(block_of_chunk, chunk, packing.compress, finest) for chunk in chunks]
+    places = {key: place for place, key in enumerate([*floating, *gridded])}
+    nodes = [_kept(node, places, steps) for node in kept]
+    surfaces = list(dict.fromkeys(chunk.material for chunk in chunks))
+    is_gridded = packing.compress != "none"
+    for number, chunk in enumerate(chunks):
+        part = len(places) + number, len(scene.materials) + surfaces.index(chunk.material)
+        nodes.append(_merged(chunk, number, part, is_gridded))
+    return _Plan(nodes, [*scene.materials, *surfaces], tasks, chunks)
+
+
+def _is_simple(node: Node) -> bool:
+    return len(node.primitives) == 1 and len(node.primitives[0].mesh.faces) > 0
+
+
+def _meshes(nodes: Sequence[Node]) -> dict[int, Mesh]:
+    """All meshes that have triangles, each once, by identity: the scene keeps them alive."""
+    return {
+        id(part.mesh): part.mesh
+        for node in nodes
+        for part in node.primitives
+        if len(part.mesh.faces)
+    }
+
+
+def _steps(nodes: Sequence[Node]) -> dict[int, float]:
+    """By mesh: the grids of tubes that fit on it, where one node alone shows them."""
+    found: dict[int, float | None] = {}
+    for node in nodes:
+        step = None if node.radius is None or not _is_simple(node) else spacing(node.radius)
+        for part in node.primitives:
+            known = id(part.mesh) in found
+            suits = (
+                step is not None
+                and not known
+                and len(part.mesh.faces) > 0
+                and fits(float(np.abs(part.mesh.vertices).max()), step)
+            )
+            found[id(part.mesh)] = step if suits else None
+    return {key: step for key, step in found.items() if step is not None}
+
+
+def _made(tasks: Sequence[Callable[[], Block]]) -> list[Block]:
+    if len(tasks) < 2:
+        return [task() for task in tasks]
+    with ThreadPoolExecutor(_THREADS) as pool:
+        return list(pool.map(lambda task: task(), tasks))
+
+
+def _kept(node: Node, places: Mapping[int, int], steps: Mapping[int, float]) -> PackedNode:
+    parts = [part for part in node.primitives if len(part.mesh.faces)]
+    scale = MOST_STEPS * steps[id(parts[0].mesh)] if parts and id(parts[0].mesh) in steps else 1.0
+    return PackedNode(
+        node.name,
+        node.translation,
+        node.rotation,
+        scale,
+        node.extras,
+        tuple([(places[id(part.mesh)], part.material) for part in parts]),
+    )
+
+
+def _merged(chunk: Chunk, number: int, part: tuple[int, int], is_gridded: bool) -> PackedNode:
+    """A node of many hyperedges, with what their own nodes would say of them."""
+    return PackedNode(
+        f"hyperedges {number}",
+        chunk.center,
+        _UPRIGHT,
+        MOST_STEPS * chunk.step if is_gridded and chunk.step is not None else 1.0,
+        {"shows": "hyperedges", "hyperedges": [node.extras for node in chunk.members]},
+        (part,),
+    )
+
+
+def _features(chunk: Chunk) -> bytes:
+    return b'{"featureIds":[{"featureCount":%d,"attribute":0,"label":"hyperedge"}]}' % len(
+        chunk.members
+    )
