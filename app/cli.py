@@ -18,7 +18,7 @@ from app.output.media import Compression, Parts, SceneFormat
 from app.settings import Settings
 
 if TYPE_CHECKING:
-    from app.pipeline import Progress
+    from app.layout import Progress
 
 READABLE = click.Choice(list(FORMATS))
 WRITABLE = click.Choice([name for name, found in FORMATS.items() if found.writes])

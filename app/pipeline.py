@@ -5,9 +5,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable
 from functools import partial
-from typing import Literal
-
-import numpy as np
 
 from app import __version__
 from app.answers import (
@@ -22,12 +19,9 @@ from app.answers import (
 from app.arrays import Floats
 from app.errors import PictureTooLarge
 from app.formats import registry
-from app.hyperedges.clearance.certificate import certify
-from app.hyperedges.pinches import find_pinches
-from app.hyperedges.route import route
 from app.hyperedges.routing import Routing
+from app.layout import Progress, judge, lay_out, silent
 from app.notations.loader import load_notation
-from app.output.clearance_numbers import Verdict
 from app.output.draft import draw_draft
 from app.output.gltf import write_glb, write_gltf
 from app.output.gltf_packing import Packing
@@ -36,7 +30,6 @@ from app.output.numbers import layout_numbers
 from app.output.shells import refuse_too_many, triangles_of
 from app.output.stl import write_stl
 from app.output.threemf import write_3mf
-from app.placement.place import place
 from app.placement.placement import Placement
 from app.program.collection import collection_paused
 from app.program.digest import canonical
@@ -49,17 +42,15 @@ from app.tubes.patches import patch_pairs, patch_tubes
 from app.tubes.sweep import sweep
 from app.tubes.tubes import Tubes
 from app.tubes.unions import plan_unions, unite
-
-Progress = Callable[[str, float], None]
-"""Told what is being done and which share of the whole is done, from 0 to 1."""
+from app.tubes.unswept import UnsweptTubes
 
 TUBE_TOLERANCE = 0.02
 """How far a mesh may be from its tube, as a share of the thinnest radius: some 16 sides. Further
 where no picture of the size asked for could show it; see `app.scene.detail`."""
 
 
-def silent(_stage: str, _share: float) -> None:
-    """Progress that nobody listens to."""
+MakeTubes = Callable[[Program, Routing, float | Floats], Tubes | UnsweptTubes]
+"""Makes tubes that are off by no more than a tolerance: one for all, or one for each (h,)."""
 
 
 def answer(
@@ -116,7 +107,8 @@ def _render(
         bodies = partial(make_bodies, most=settings.max_print_triangles, progress=progress)
         scene = make_scene(program, aspect, progress, bodies)
     else:
-        scene = make_scene(program, aspect, progress, height=options.height)
+        make = make_crowd if _is_crowd(program, options) else make_tubes
+        scene = make_scene(program, aspect, progress, make, options.height)
     if options.format.is_printed:
         refuse_too_many(triangles_of(scene, options.parts), settings.max_print_triangles)
     progress("writing", 0.6)
@@ -138,15 +130,12 @@ def layout(
     etag = validator(program, options)
     if is_known(etag, known):
         return Unchanged(etag)
-    progress("placing items", 0.2)
-    placement = place(program, load_notation(program.notation))
-    progress("laying out hyperedges", 0.4)
-    routing = route_program(program, placement)
+    laid = lay_out(program, progress=progress)
     progress("proving clearance", 0.5)
-    verdict = judge(program, placement, routing)
+    verdict = judge(laid)
     progress("writing", 0.6)
-    patches = patch_pairs(routing, program.layout.patch_rule) if options.patches else None
-    body = layout_numbers(program, placement, routing, patches, verdict)
+    patches = patch_pairs(laid.routing, program.layout.patch_rule) if options.patches else None
+    body = layout_numbers(program, laid.placement, laid.routing, patches, verdict)
     progress("done", 1.0)
     return Answer(body, "application/json", etag, program.name)
 
@@ -174,7 +163,7 @@ def make_scene(
     program: Program,
     aspect: float,
     progress: Progress = silent,
-    tubes_of: Callable[[Program, Routing], Tubes] | None = None,
+    tubes_of: MakeTubes | None = None,
     height: int | None = None,
 ) -> Scene:
     """Place, route, make tubes, assemble: everything between reading and writing.
@@ -182,42 +171,13 @@ def make_scene(
     Tubes are no finer than shows in a picture ``height`` pixels high, where there is one.
     """
     notation = load_notation(program.notation)
-    progress("placing items", 0.1)
-    placement = place(program, notation)
-    progress("laying out hyperedges", 0.2)
-    routing = route_program(program, placement)
+    laid = lay_out(program, progress=progress)
+    placement, routing = laid.placement, laid.routing
     progress("making tubes", 0.4)
-    if tubes_of is not None:
-        tubes = tubes_of(program, routing)
-    else:
-        tubes = make_tubes(
-            program, routing, _tolerance(program, placement, routing, aspect, height)
-        )
+    tolerance = _tolerance(program, placement, routing, aspect, height)
+    tubes = (tubes_of or make_tubes)(program, routing, tolerance)
     progress("assembling the scene", 0.5)
     return assemble(program, notation, placement, tubes, aspect)
-
-
-def route_program(program: Program, placement: Placement) -> Routing:
-    """The hyperedges' curves, as the document's ``layout`` wishes."""
-    return route(
-        placement,
-        curves=program.layout.curves or _usual_curves(program),
-        fidelity=program.layout.fidelity,
-        closest=program.layout.closest,
-        clearance=program.layout.clearance,
-        join_heights=_join_heights(program),
-    )
-
-
-def judge(program: Program, placement: Placement, routing: Routing) -> Verdict | None:
-    """What is proven about distances; None where the document wants no clearance."""
-    if program.layout.clearance is None:
-        return None
-    return Verdict(certify(routing, placement, program.layout.clearance), find_pinches(routing))
-
-
-def _usual_curves(program: Program) -> Literal["steiner", "prose"]:
-    return "prose" if program.layout.fidelity == "paper" else "steiner"
 
 
 def make_tubes(program: Program, routing: Routing, tolerance: float | Floats) -> Tubes:
@@ -229,7 +189,19 @@ def make_tubes(program: Program, routing: Routing, tolerance: float | Floats) ->
     return sweep(routing, tolerance)
 
 
-def make_bodies(program: Program, routing: Routing, *, most: int, progress: Progress) -> Tubes:
+def make_crowd(_program: Program, routing: Routing, tolerance: float | Floats) -> UnsweptTubes:
+    """Tubes of very many hyperedges, which are made when they are written."""
+    return UnsweptTubes.of(routing, tolerance)
+
+
+def make_bodies(
+    program: Program,
+    routing: Routing,
+    _tolerance: float | Floats,
+    *,
+    most: int,
+    progress: Progress,
+) -> Tubes:
     """Tubes for printing: each hyperedge one closed body, of ``most`` triangles together."""
     if not program.hyperedges:
         return Tubes.none()
@@ -237,6 +209,16 @@ def make_bodies(program: Program, routing: Routing, *, most: int, progress: Prog
     refuse_too_many(plan.triangles, most)
     names = [hyperedge.id for hyperedge in program.hyperedges]
     return unite(plan, names, lambda share: progress("making tubes", 0.4 + 0.1 * share))
+
+
+def _is_crowd(program: Program, options: RenderOptions) -> bool:
+    """Whether nobody needs a node for each hyperedge."""
+    return (
+        options.format in {SceneFormat.GLB, SceneFormat.GLTF}
+        and program.layout.tube == "swept"
+        and len(program.hyperedges) > 0
+        and Packing(options.compress, options.merge).merges(len(program.hyperedges))
+    )
 
 
 def _tolerance(
@@ -253,16 +235,6 @@ def validator(program: Program, options: object) -> str:
     """A strong validator: digest of the document, of what was asked, and of our version."""
     asked = f"{__version__}\n{options!r}\n".encode()
     return hashlib.sha256(asked + canonical(program)).hexdigest()[:32]
-
-
-def _join_heights(program: Program) -> Floats:
-    return np.array(
-        [
-            np.nan if hyperedge.join_height is None else hyperedge.join_height
-            for hyperedge in program.hyperedges
-        ],
-        dtype=np.float64,
-    )
 
 
 def _write(scene: Scene, options: RenderOptions) -> bytes:

@@ -41,7 +41,7 @@ class Settings(BaseSettings):
     )
     max_pixels: int = Field(4096 * 4096, ge=1)
     max_print_triangles: int = Field(
-        4_000_000, ge=1, description="Of what a print is made from, before tubes are united."
+        2_000_000, ge=1, description="Of what a print is made from, before tubes are united."
     )
 
 

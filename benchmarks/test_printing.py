@@ -12,10 +12,11 @@ import pytest
 from app.formats import registry
 from app.hyperedges.route import route
 from app.hyperedges.routing import Routing
+from app.layout import silent
 from app.output.shells import triangles_of
 from app.output.stl import write_stl
 from app.output.threemf import write_3mf
-from app.pipeline import make_bodies, make_scene, silent
+from app.pipeline import make_bodies, make_scene
 from app.settings import Settings
 from app.tubes.sweep import sweep
 from app.tubes.tubes import Tubes

@@ -43,6 +43,15 @@ def test_the_ending_of_the_output_tells_the_format(program: Path, name: str, sta
     assert output.read_bytes().startswith(start)
 
 
+def test_gltf_is_compressed_and_merged_as_asked(program: Path) -> None:
+    output = program.with_name("out.glb")
+    arguments = ["render", str(program), "-o", str(output), "--compress", "meshopt", "--merge"]
+    done = CliRunner().invoke(main, arguments)
+    assert done.exit_code == 0, done.output
+    assert b'"EXT_meshopt_compression"' in output.read_bytes()
+    assert b'"hyperedges 0"' in output.read_bytes()
+
+
 def test_a_picture_has_the_size_that_was_asked_for(program: Path) -> None:
     output = program.with_name("out.png")
     arguments = ["render", str(program), "-o", str(output), "--width", "320", "--height", "200"]

@@ -39,3 +39,25 @@ class Routing:
     def attachment_counts(self) -> Indices:
         """How many attachments each hyperedge has, (h,): a tree's leaves."""
         return np.diff(self.segment_starts) - np.diff(self.join_starts) + 1
+
+    def part(self, hyperedges: Indices) -> Routing:
+        """The routing of ``hyperedges`` (k,) alone, in that order."""
+        segments, segment_starts = _gathered(self.segment_starts, hyperedges)
+        joins, join_starts = _gathered(self.join_starts, hyperedges)
+        return Routing(
+            control_points=self.control_points[segments],
+            segment_starts=segment_starts,
+            segment_ends=self.segment_ends[segments],
+            join_positions=self.join_positions[joins],
+            join_tangents=self.join_tangents[joins],
+            join_starts=join_starts,
+            join_planes=self.join_planes[hyperedges],
+            radii=self.radii[hyperedges],
+        )
+
+
+def _gathered(starts: Indices, groups: Indices) -> tuple[Indices, Indices]:
+    """The members of some ``groups`` (k,), one group after another, and where each begins."""
+    counts = starts[groups + 1] - starts[groups]
+    begins = np.concatenate([[0], np.cumsum(counts)])
+    return np.repeat(starts[groups] - begins[:-1], counts) + np.arange(begins[-1]), begins

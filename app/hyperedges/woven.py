@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
-from app.hyperedges.clearance.obstacles import attached_items, obstacles_of
+from app.hyperedges.clearance.obstacles import Obstacles, attached_items, obstacles_of
 from app.hyperedges.join_planes import choose_join_planes
 from app.hyperedges.joining import merge, select
 from app.hyperedges.routing import Routing
@@ -64,7 +64,8 @@ def weave_all(
     kept = np.zeros(hyperedges, dtype=np.bool_)
     if previous is not None:
         kept = _unmoved(placement, join_heights, previous)
-        kept &= ~_at_items(kept, placement, previous, surroundings, clearance)
+        new = Surroundings(_new(surroundings.obstacles, previous.placement), surroundings.attached)
+        kept &= ~_at_items(kept, placement, previous, new, clearance)
     for attempt in range(HITS + 1):
         if attempt == HITS:
             kept[:] = False
@@ -83,10 +84,10 @@ def weave_all(
         if not woven.hit.any():
             break
         kept[standing[woven.hit]] = False
-    new = number(woven.plan, woven.fabric, woven.leaving, woven.planes, threads.radii)
+    made = number(woven.plan, woven.fabric, woven.leaving, woven.planes, threads.radii)
     if old is None:
-        return new
-    return merge(new, old, np.concatenate([chosen, standing]))
+        return made
+    return merge(made, old, np.concatenate([chosen, standing]))
 
 
 def lay_all(placement: Placement, join_heights: Floats) -> Routing:
@@ -153,14 +154,38 @@ def _still(placement: Placement, standing: Indices, old: Routing) -> Still:
         placement.attachment_directions[rows],
         old.radii[owners],
     )
+    p = old.control_points
+    lows = np.minimum(np.minimum(p[:, 0], p[:, 1]), np.minimum(p[:, 2], p[:, 3]))
+    highs = np.maximum(np.maximum(p[:, 0], p[:, 1]), np.maximum(p[:, 2], p[:, 3]))
     return Still(
         old.control_points,
+        np.stack([lows, highs], axis=1),
         np.repeat(np.arange(len(standing)), np.diff(old.segment_starts)),
         feet,
         owners,
         old.join_planes,
         old.radii,
     )
+
+
+def _new(obstacles: Obstacles, placement: Placement) -> Obstacles:
+    """The boxes that were not in an earlier placement."""
+    old = obstacles_of(placement)
+    return obstacles.only(np.flatnonzero(~np.isin(_bytes(obstacles), _bytes(old))))
+
+
+def _bytes(obstacles: Obstacles) -> NDArray[np.void]:
+    """Each box as a string of bytes, (m,)."""
+    rows = np.concatenate(
+        [
+            obstacles.centers,
+            obstacles.rotations.reshape(-1, 9),
+            obstacles.halves,
+            obstacles.roundings[:, None],
+        ],
+        axis=1,
+    )
+    return np.ascontiguousarray(rows).view(np.dtype((np.void, rows.itemsize * 16))).ravel()
 
 
 def _at_items(

@@ -76,7 +76,7 @@ def block_of_chunk(chunk: Chunk, compress: Compression, finest: float) -> Block:
         _positions(meshes, starts, compress, finest, steps),
         _normals(meshes, starts, compress),
         _Column(
-            vertices([chunk.colors[merged.members]], encode=encode),
+            vertices([merged.colors[merged.members]], encode=encode),
             _texts(starts, 4, _UNSIGNED_BYTE, b"VEC4", normalized=True),
         ),
         _Column(

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from app.output.gltf_blocks import Block, block_of, block_of_chunk
-from app.output.gltf_chunks import Chunk, chunks_of
+from app.output.gltf_chunks import Chunk, chunks_of, crowd_of
 from app.output.gltf_numbers import MOST_STEPS, fits, spacing
 from app.output.gltf_views import MESHOPT, Laid, lay
 from app.output.media import Compression
@@ -124,10 +124,14 @@ class _Plan:
 
 def _plan(scene: Scene, packing: Packing) -> _Plan:
     drawn = [node for node in scene.nodes if node.shows == "hyperedge" and _is_simple(node)]
-    chunks = chunks_of(drawn, scene.materials) if drawn and packing.merges(len(drawn)) else []
-    merged = set(map(id, drawn)) if chunks else set()
-    kept = [node for node in scene.nodes if id(node) not in merged]
     thinnest = min([node.radius for node in drawn if node.radius is not None], default=inf)
+    kept, crowd = scene.nodes, scene.crowd
+    if crowd is None and drawn and packing.merges(len(drawn)):
+        crowd = crowd_of(drawn, scene.materials)
+        merged = set(map(id, drawn))
+        kept = tuple([node for node in kept if id(node) not in merged])
+    if crowd is not None:
+        thinnest = min(thinnest, float(np.nanmin(crowd.radii, initial=inf)))
     finest = spacing(thinnest)
     meshes = _meshes(kept)
     steps = {} if packing.compress == "none" else _steps(kept)
@@ -141,15 +145,18 @@ def _plan(scene: Scene, packing: Packing) -> _Plan:
         found = [meshes[key] for key in gridded]
         widths = np.array([steps[key] for key in gridded])
         tasks.append(partial(block_of, found, packing.compress, finest, widths))
-    tasks += [partial(block_of_chunk, chunk, packing.compress, finest) for chunk in chunks]
     places = {key: place for place, key in enumerate([*floating, *gridded])}
     nodes = [_kept(node, places, steps) for node in kept]
-    surfaces = list(dict.fromkeys(chunk.material for chunk in chunks))
-    is_gridded = packing.compress != "none"
-    for number, chunk in enumerate(chunks):
-        part = len(places) + number, len(scene.materials) + surfaces.index(chunk.material)
-        nodes.append(_merged(chunk, number, part, is_gridded))
-    return _Plan(nodes, [*scene.materials, *surfaces], tasks, chunks)
+    materials = list(scene.materials)
+    chunks: list[Chunk] = []
+    if crowd is not None:
+        chunks = chunks_of(crowd)
+        tasks += [partial(block_of_chunk, chunk, packing.compress, finest) for chunk in chunks]
+        for number, chunk in enumerate(chunks):
+            part = len(places) + number, len(materials) + chunk.surface
+            nodes.append(_merged(chunk, number, part, is_gridded=packing.compress != "none"))
+        materials += crowd.materials
+    return _Plan(nodes, materials, tasks, chunks)
 
 
 def _is_simple(node: Node) -> bool:
@@ -203,14 +210,16 @@ def _kept(node: Node, places: Mapping[int, int], steps: Mapping[int, float]) -> 
     )
 
 
-def _merged(chunk: Chunk, number: int, part: tuple[int, int], is_gridded: bool) -> PackedNode:
+def _merged(chunk: Chunk, number: int, part: tuple[int, int], *, is_gridded: bool) -> PackedNode:
     """A node of many hyperedges, with what their own nodes would say of them."""
+    x, y, z = chunk.center.tolist()
+    said = [chunk.crowd.extras(member) for member in chunk.members.tolist()]
     return PackedNode(
         f"hyperedges {number}",
-        chunk.center,
+        (x, y, z),
         _UPRIGHT,
         MOST_STEPS * chunk.step if is_gridded and chunk.step is not None else 1.0,
-        {"shows": "hyperedges", "hyperedges": [node.extras for node in chunk.members]},
+        {"shows": "hyperedges", "hyperedges": said},
         (part,),
     )
 

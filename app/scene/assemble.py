@@ -11,40 +11,54 @@ from app.notations.notation import Notation
 from app.placement.placement import Placement
 from app.program.model import Program
 from app.scene.boxes import boxes
-from app.scene.camera import axes_from, frame
+from app.scene.camera import Farthest, axes_from, frame
 from app.scene.color import linear_of, srgb_of
+from app.scene.curve_reach import CurveReach
 from app.scene.ground import disc_below, ground_color
-from app.scene.hyperedge_nodes import UPRIGHT, hyperedge_nodes
+from app.scene.hyperedge_nodes import UPRIGHT, crowd_of, hyperedge_nodes
 from app.scene.item_nodes import item_nodes
 from app.scene.lights import three_point
 from app.scene.materials import make_material
-from app.scene.reach import Reach
+from app.scene.reach import Reach, bounds_by, farther_of
 from app.scene.scene import Material, Node, Primitive, Scene
 from app.tubes.tubes import Tubes
+from app.tubes.unswept import UnsweptTubes
 
 
 def assemble(
-    program: Program, notation: Notation, placement: Placement, tubes: Tubes, aspect: float
+    program: Program,
+    notation: Notation,
+    placement: Placement,
+    tubes: Tubes | UnsweptTubes,
+    aspect: float,
 ) -> Scene:
     """The scene of a program, framed for a picture of ``aspect`` (width over height).
 
     One node for each item and each hyperedge, in the order of the document, and one for the
-    ground where the style wishes for it and there is something to stand on it. Raises
-    `UnknownName` where there is no such palette.
+    ground where the style wishes for it and there is something to stand on it. Where tubes are not
+    swept yet, hyperedges are a crowd without nodes. Raises `UnknownName` where there is no such
+    palette.
     """
     background = (
         None if program.style.background == "transparent" else srgb_of(program.style.background)
     )
     materials: dict[Material, int] = {}
     items = item_nodes(program, notation, placement, materials)
-    hyperedges, tube_boxes = hyperedge_nodes(
-        program, notation, tubes, placement.radii, background, materials
-    )
-    nodes = items + hyperedges
-    reach = Reach.of(nodes, np.concatenate([_boxes(items), tube_boxes]))
-    bounds = reach.bounds
+    nodes, around, crowd = items, _boxes(items), None
+    of_crowd: Farthest | None = None
+    if isinstance(tubes, Tubes):
+        hyperedges, tube_boxes = hyperedge_nodes(
+            program, notation, tubes, placement.radii, background, materials
+        )
+        nodes, around = items + hyperedges, np.concatenate([around, tube_boxes])
+    else:
+        crowd = crowd_of(program, notation, tubes, background)
+        of_crowd = CurveReach.of(tubes.routing).farthest
+    reach = Reach.of(nodes, around)
+    farthest = farther_of(reach.farthest if reach.nodes else None, of_crowd)
+    bounds = bounds_by(farthest)
     ground = None
-    if program.style.ground and reach.nodes:
+    if program.style.ground and farthest is not None:
         node, box = _ground(bounds, background, materials)
         ground = Reach.of([node], box[None]).farthest
         nodes.append(node)
@@ -54,9 +68,10 @@ def assemble(
         nodes=tuple(nodes),
         materials=tuple(materials),
         lights=three_point(axes),
-        camera=frame(reach.farthest if reach.nodes else None, program.view, aspect, ground),
+        camera=frame(farthest, program.view, aspect, ground),
         background=None if background is None else _triple(linear_of(background)),
         bounds=bounds,
+        crowd=crowd,
     )
 
 

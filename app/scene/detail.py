@@ -10,6 +10,7 @@ from app.placement.placement import Placement
 from app.placement.turning import matrices
 from app.program.model import View
 from app.scene.camera import axes_from, frame
+from app.scene.curve_reach import CurveReach, curve_boxes
 from app.scene.scene import Camera
 
 UNSEEN = 0.1
@@ -32,12 +33,10 @@ def tolerances(
     the tube comes nearest to the camera, but not less than ``finest`` (document units), nor more
     than `COARSEST` of its radius where that is more than ``finest``.
     """
-    middles, halves = _hyperedge_boxes(routing)
-    items = _item_corners(placement)
+    curves, items = CurveReach.of(routing), _item_corners(placement)
 
     def farthest(way: Floats) -> Floats:
-        number = int(np.argmax(middles @ way + halves @ np.abs(way)))
-        best: Floats = middles[number] + np.copysign(halves[number], way)
+        best = curves.farthest(way)
         if len(items):
             other: Floats = items[int(np.argmax(items @ way))]
             best = other if other @ way > best @ way else best
@@ -45,7 +44,9 @@ def tolerances(
 
     camera = frame(farthest, view, aspect)
     back = axes_from(view.from_).back
-    depths = float(camera.position @ back) - (middles @ back + halves @ np.abs(back))
+    low, high = curve_boxes(routing).transpose(1, 0, 2)
+    nearest = (low + high) / 2 @ back + (high - low) / 2 @ np.abs(back)
+    depths = float(camera.position @ back) - nearest
     allowed = UNSEEN * _heights(camera, depths) / height
     return np.maximum(np.minimum(allowed, COARSEST * routing.radii), finest)
 
@@ -58,21 +59,6 @@ def _heights(camera: Camera, depths: Floats) -> Floats:
     if camera.height is None:
         raise ValueError("A camera needs an angle or a height.")
     return np.full(len(depths), camera.height)
-
-
-def _hyperedge_boxes(routing: Routing) -> tuple[Floats, Floats]:
-    """Middles (h, 3) and half sizes (h, 3) of boxes around the tubes of each hyperedge.
-
-    No curve leaves the box of its control points; those of its halves (de Casteljau) are near it.
-    """
-    p, q, r, s = routing.control_points.transpose(1, 0, 2)
-    first, middle, last = (p + q) / 2, (q + r) / 2, (r + s) / 2
-    before, after = (first + middle) / 2, (middle + last) / 2
-    points = (p, first, before, after, last, s)
-    starts = routing.segment_starts[:-1]
-    lows = np.minimum.reduceat(np.minimum.reduce(points), starts, axis=0)
-    highs = np.maximum.reduceat(np.maximum.reduce(points), starts, axis=0)
-    return (lows + highs) / 2, (highs - lows) / 2 + routing.radii[:, None]
 
 
 def _item_corners(placement: Placement) -> Floats:

@@ -1,19 +1,23 @@
-"""Hyperedges as nodes: all tubes of one hyperedge, around their own middle."""
+"""Hyperedges as nodes: all tubes of one hyperedge, around their own middle; or as a crowd."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from app.arrays import Floats
 from app.notations.notation import Notation
-from app.program.model import Hyperedge, Program
+from app.program.model import Hyperedge, MaterialName, Program
 from app.scene.boxes import around_their_middles
-from app.scene.color import srgb_of
-from app.scene.materials import make_materials
+from app.scene.color import linear_of, srgb_of
+from app.scene.curve_reach import curve_boxes
+from app.scene.materials import in_white, make_material, make_materials
 from app.scene.palette import colors
-from app.scene.scene import Material, Node, Primitive
+from app.scene.scene import Crowd, Material, Node, Primitive
 from app.solids.mesh import Mesh
 from app.tubes.tubes import Tubes
+from app.tubes.unswept import UnsweptTubes
 
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
@@ -69,21 +73,46 @@ def _node(
     )
 
 
+def crowd_of(
+    program: Program, notation: Notation, tubes: UnsweptTubes, background: Floats | None
+) -> Crowd:
+    """All hyperedges without nodes, in the order of the document; else as `hyperedge_nodes`."""
+    names, chosen = _styles(program, notation, background)
+    known: dict[MaterialName, int] = {}
+    surfaces = np.array([known.setdefault(name, len(known)) for name in names], dtype=np.int64)
+    return Crowd(
+        swept=tubes.swept,
+        vertex_counts=tubes.vertex_counts,
+        boxes=curve_boxes(tubes.routing),
+        radii=tubes.routing.radii,
+        colors=linear_of(chosen),
+        surfaces=surfaces,
+        materials=tuple(in_white(make_material(name, "#fff")) for name in known),
+        extras=lambda number: _extras(program.hyperedges[number]),
+    )
+
+
 def _materials(program: Program, notation: Notation, background: Floats | None) -> list[Material]:
-    """Its own colour, or its kind's, or the palette's.
+    return make_materials(*_styles(program, notation, background))
+
+
+def _styles(
+    program: Program, notation: Notation, background: Floats | None
+) -> tuple[list[MaterialName], Floats]:
+    """Names of materials (h,) and sRGB colours (h, 3): its own, or its kind's, or the palette's.
 
     Every hyperedge takes one from the palette, whether it shows it or not: so a colour given to
     one does not change the others'.
     """
     chosen = colors(program.style.palette, len(program.hyperedges), background)
-    names = []
+    names: list[MaterialName] = []
     for number, hyperedge in enumerate(program.hyperedges):
         style = notation.hyperedge_style(hyperedge.kind)
         names.append(hyperedge.material or style.material)
         given = hyperedge.color or style.color
         if given is not None:
             chosen[number] = srgb_of(given)
-    return make_materials(names, chosen)
+    return names, chosen
 
 
 def _extras(hyperedge: Hyperedge) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -56,6 +56,16 @@ def make_material(name: MaterialName, color: str) -> Material:
     Material(name='matte #ffffff', base_color=(1.0, 1.0, 1.0, 1.0), metallic=0.0, roughness=0.9)
     """
     return make_materials([name], srgb_of(color)[None])[0]
+
+
+def in_white(material: Material) -> Material:
+    """The same surface without its colour; its name says only what it is made of.
+
+    >>> in_white(make_material("glass", "#0af")).name
+    'glass'
+    """
+    white = (1.0, 1.0, 1.0, material.base_color[3])
+    return replace(material, name=material.name.partition(" ")[0], base_color=white)
 
 
 def make_materials(names: Sequence[MaterialName], colors: Floats) -> list[Material]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from app.arrays import Floats
 from app.placement.turning import matrices
+from app.scene.camera import Farthest
 from app.scene.scene import Node
 
 _CORNERS = np.array([[i >> 2 & 1, i >> 1 & 1, i & 1] for i in range(8)])
@@ -41,11 +42,7 @@ class Reach:
     @property
     def bounds(self) -> Floats:
         """Smallest and largest corner, exact, (2, 3); the origin twice where there is nothing."""
-        if not self.nodes:
-            return np.zeros((2, 3))
-        low = [self.farthest(-axis) @ axis for axis in np.eye(3)]
-        high = [self.farthest(axis) @ axis for axis in np.eye(3)]
-        return np.array([low, high])
+        return bounds_by(self.farthest if self.nodes else None)
 
     def farthest(self, direction: Floats) -> Floats:
         """The vertex (3,) that lies farthest along ``direction`` (3,); there must be one.
@@ -79,3 +76,24 @@ class Reach:
             if reached > best:
                 best, found = reached, position
         return best, found
+
+
+def bounds_by(farthest: Farthest | None) -> Floats:
+    """Smallest and largest corner of what ``farthest`` knows, (2, 3); of nothing the origin."""
+    if farthest is None:
+        return np.zeros((2, 3))
+    low = [farthest(-axis) @ axis for axis in np.eye(3)]
+    high = [farthest(axis) @ axis for axis in np.eye(3)]
+    return np.array([low, high])
+
+
+def farther_of(one: Farthest | None, other: Farthest | None) -> Farthest | None:
+    """Who answers for both; ``None`` is nothing."""
+    if one is None or other is None:
+        return one or other
+
+    def farthest(direction: Floats) -> Floats:
+        here, there = one(direction), other(direction)
+        return there if there @ direction > here @ direction else here
+
+    return farthest

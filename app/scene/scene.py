@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from app.arrays import Floats
+from app.arrays import Floats, Indices
 from app.solids.mesh import Mesh
+from app.tubes.tubes import Tubes
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +55,26 @@ class Node:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Crowd:
+    """Very many hyperedges that have no nodes of their own.
+
+    ``swept`` makes the tubes of some of them (k,), around the world's origin. ``vertex_counts``
+    (h,) are how many vertices each has, ``boxes`` (h, 2, 3) hold them, ``radii`` (h,) are NaN where
+    they are not known. ``colors`` (h, 3) are linear RGB; ``surfaces`` (h,) are numbers of
+    ``materials``, which are white. ``extras`` are what a node of one would carry.
+    """
+
+    swept: Callable[[Indices], Tubes]
+    vertex_counts: Indices
+    boxes: Floats
+    radii: Floats
+    colors: Floats
+    surfaces: Indices
+    materials: tuple[Material, ...]
+    extras: Callable[[int], Mapping[str, Any]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Camera:
     """A camera at ``position`` that looks at ``target``, ``up`` being up in the picture.
 
@@ -86,7 +107,8 @@ class Light:
 class Scene:
     """Everything to be seen. ``background`` is linear RGB, or ``None`` for transparent.
 
-    ``bounds`` (2, 3) hold the items and hyperedges, without the ground.
+    ``bounds`` (2, 3) hold the items and hyperedges, without the ground. Hyperedges are either among
+    the nodes or a ``crowd``, which only glTF can show.
     """
 
     name: str
@@ -96,3 +118,4 @@ class Scene:
     camera: Camera
     background: tuple[float, float, float] | None
     bounds: Floats
+    crowd: Crowd | None = None

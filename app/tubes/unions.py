@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from manifold3d import Error, Manifold, OpType
+from manifold3d import Error, Manifold, Mesh64, OpType
 
 from app.arrays import Floats
 from app.errors import Fault, Unprintable, pointer
@@ -69,9 +69,9 @@ def unite(
     """Each hyperedge as one body, closed, in one piece and nowhere overlapping itself.
 
     It is what a ball of the radius passes through, within twice the tolerance of the plan and a
-    thousandth of the radius. A curve that bends more tightly than its tube is thick, or
-    comes back to itself, makes no difference. Hollows are filled. Vertices are positions, no two
-    alike; normals are the means of the faces around.
+    thousandth of the radius. A curve that bends more tightly than its tube is thick, or comes back
+    to itself, makes no difference. Hollows are filled. Vertices are positions, no two alike;
+    normals are the means of those of the faces around.
 
     ``names`` (h,) are for messages; ``progress`` is told the share that is done. Raises
     `Unprintable` with every hyperedge that has no such body: those so thin that single precision
@@ -114,9 +114,9 @@ def _united(plan: TubePlan, number: int, step: float) -> Mesh:
     if union.status() != Error.NoError:
         raise _NoBodyError(f"its union failed ({union.status().name}).")
     body = _largest(union)
-    if _shortest(body) < max(_SHORTEST * radius, 4.0 * step):
-        body = _largest(body.as_original().simplify(_SIMPLER * radius))
     mesh = body.to_mesh64()
+    if _shortest(mesh) < max(_SHORTEST * radius, 4.0 * step):
+        mesh = _largest(body.as_original().simplify(_SIMPLER * radius)).to_mesh64()
     faces = mesh.tri_verts.astype(np.uint32)
     positions = part(mesh.vert_properties[:, :3], faces)
     if positions is None or not is_closed(faces):
@@ -142,9 +142,8 @@ def _largest(union: Manifold) -> Manifold:
     return found[body]
 
 
-def _shortest(body: Manifold) -> float:
+def _shortest(mesh: Mesh64) -> float:
     """The length of the shortest edge."""
-    mesh = body.to_mesh64()
     start, stop = edges_of(mesh.tri_verts).T
     along = mesh.vert_properties[stop, :3] - mesh.vert_properties[start, :3]
     return float(np.sqrt(np.einsum("ex,ex->e", along, along).min()))

@@ -139,7 +139,11 @@ def test_a_program_without_hyperedges_or_items_has_empty_lists() -> None:
         join_planes=np.zeros(0),
         radii=np.zeros(0),
     )
-    assert numbers(program, placed(program), nothing) == {"items": [], "hyperedges": [], "clearance": None}
+    assert numbers(program, placed(program), nothing) == {
+        "items": [],
+        "hyperedges": [],
+        "clearance": None,
+    }
 
 
 def test_without_a_wish_for_clearance_nothing_is_said_about_it() -> None:

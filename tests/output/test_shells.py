@@ -9,9 +9,10 @@ import pytest
 import trimesh
 
 from app.errors import DocumentTooLarge, Unprintable
+from app.layout import silent
 from app.output.media import Parts
 from app.output.shells import refuse_too_many, shells, triangles_of
-from app.pipeline import make_bodies, make_scene, silent
+from app.pipeline import make_bodies, make_scene
 from app.program.reading import read_program
 from app.scene.scene import Scene
 from app.settings import Settings

@@ -107,7 +107,8 @@ def scaled(scene: Scene, factor: float) -> Scene:
             return node
         (part,) = node.primitives
         mesh = replace(part.mesh, vertices=part.mesh.vertices * np.float32(factor))
-        place = tuple(factor * each for each in node.translation)
+        x, y, z = node.translation
+        place = (factor * x, factor * y, factor * z)
         return replace(node, primitives=(replace(part, mesh=mesh),), translation=place)
 
     return replace(scene, nodes=tuple(map(larger, scene.nodes)))

@@ -31,6 +31,9 @@ FEW = 4096
 """Rows below which a second thread costs more than it saves."""
 
 
+CORES = os.cpu_count() or 1
+
+
 class Tree(NamedTuple):
     """A tree over n boxes.
 
@@ -45,12 +48,13 @@ class Tree(NamedTuple):
     nodes: Floats
 
 
-def in_parts(count: int, work: Callable[[int, int], Any]) -> list[Any]:
+def in_parts(count: int, work: Callable[[int, int], Any], few: int = FEW) -> list[Any]:
     """The results of ``work(begin, end)`` on stretches of ``count`` rows, in order.
 
-    Threads, where there is enough to do; ``work`` has to give up the interpreter's lock.
+    Threads, where each has ``few`` rows or more to do; ``work`` has to give up the interpreter's
+    lock.
     """
-    threads = min(os.cpu_count() or 1, count // FEW)
+    threads = min(CORES, count // few)
     if threads < 2:
         return [work(0, count)]
     # More parts than threads, because some take longer.

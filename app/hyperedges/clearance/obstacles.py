@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from app.arrays import Floats, Indices
 from app.hyperedges.clearance.box_tree import in_parts, meeting, plant
 from app.hyperedges.clearance.distance import search_box
+from app.hyperedges.clearance.few_boxes import FEW, meeting_with
 from app.hyperedges.clearance.hulls import Boxes, hull
 from app.hyperedges.clearance.pairs import FINEST, ROUNDING, Gaps, bezier, boxes
 from app.hyperedges.clearance.search import workspace
@@ -32,6 +33,16 @@ class Obstacles:
     halves: Floats
     roundings: Floats
     items: Indices
+
+    def only(self, rows: Indices) -> Obstacles:
+        """The boxes of these rows, which ascend."""
+        return Obstacles(
+            self.centers[rows],
+            self.rotations[rows],
+            self.halves[rows],
+            self.roundings[rows],
+            self.items[rows],
+        )
 
 
 def obstacles_of(placement: Placement) -> Obstacles:
@@ -116,13 +127,15 @@ def near_obstacles(
     reach = np.einsum("kij,kj->ki", np.abs(obstacles.rotations), obstacles.halves)
     reach += (obstacles.roundings + ROUNDING * float(np.abs(obstacles.centers).max()))[:, None]
     nothing = np.zeros((len(obstacles.items), 1))
-    tree = plant(
-        np.hstack([obstacles.centers - reach, nothing, obstacles.centers + reach, nothing])
-    )
+    theirs = np.hstack([obstacles.centers - reach, nothing, obstacles.centers + reach, nothing])
     asking = np.arange(len(owners)) if active is None else np.flatnonzero(active)
-    # No two groups are equal: the pairs that are attached are taken out below.
-    strangers = np.full(len(obstacles.items), -1)
-    found = meeting(tree, boxes(control_points, radii + clearance), asking, (owners, strangers))
+    ours = boxes(control_points, radii + clearance)
+    if len(asking) * len(theirs) <= FEW:
+        found = meeting_with(ours, asking, theirs)
+    else:
+        # No two groups are equal: the pairs that are attached are taken out below.
+        strangers = np.full(len(theirs), -1)
+        found = meeting(plant(theirs), ours, asking, (owners, strangers))
     count = int(max(obstacles.items.max(), attached[:, 1].max(initial=0))) + 1
     keys = owners[found[:, 0]] * count + obstacles.items[found[:, 1]]
     return found[~np.isin(keys, attached[:, 0] * count + attached[:, 1])]

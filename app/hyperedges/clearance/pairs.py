@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from app.arrays import Floats, Indices
 from app.hyperedges.clearance.box_tree import in_parts, meeting, plant
 from app.hyperedges.clearance.distance import search
+from app.hyperedges.clearance.few_boxes import FEW, meeting_among
 from app.hyperedges.clearance.search import workspace
 
 FINEST = 1e-3
@@ -71,8 +72,10 @@ def near_pairs(
     if len(control_points) < 2:
         return np.zeros((0, 2), dtype=np.int64)
     around = boxes(control_points, radii + 0.5 * clearance)
-    tree = plant(around)
     asked = np.ones(len(owners), dtype=np.bool_) if active is None else active
+    if len(around) ** 2 <= 2 * FEW:
+        return meeting_among(around, owners, asked)
+    tree = plant(around)
     # In the tree's order, because neighbours look through the same nodes.
     asking = tree.order[asked[tree.order]]
     return meeting(tree, around, asking, (owners, owners), asked)

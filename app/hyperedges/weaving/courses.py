@@ -32,7 +32,7 @@ BROAD = np.array([0.0, 1.3, 0.7])
 WIDE = 1.7
 """Radius of the arcs around corners, in radii of the tube, where there is room."""
 
-STRAIGHT = 1e-6
+STRAIGHT = 1e-3
 """Turns smaller than this angle are none."""
 
 

@@ -23,17 +23,32 @@ class Crossings(NamedTuple):
     neighbours: Indices
 
 
-def find_crossings(legs: Floats, owners: Indices, radii: Floats, clearance: float) -> Crossings:
-    """Crossings of straight legs (m, 2, 2) whose hyperedges are ``owners`` (m,).
+def find_crossings(
+    legs: Floats,
+    owners: Indices,
+    still_legs: Floats,
+    still_owners: Indices,
+    radii: Floats,
+    clearance: float,
+) -> Crossings:
+    """Crossings of straight legs (m, 2, 2) with each other and with those that stand still.
 
-    Tubes with ``radii`` (h,) need r1 + r2 + ``clearance`` between their centre lines.
+    Those are (n, 2, 2); among themselves they do not count. ``owners`` (m,) and ``still_owners``
+    (n,) are their hyperedges. Tubes with ``radii`` (h,) need r1 + r2 + ``clearance`` between their
+    centre lines.
     """
     order = np.argsort(legs[:, :, 0].min(axis=1), kind="stable")
-    pairs = _sweep(legs[order], owners[order], radii, clearance)
+    pairs = np.concatenate(
+        [
+            _sweep(legs[order], owners[order], radii, clearance),
+            _compare(legs, owners, still_legs, still_owners, radii, clearance),
+        ]
+    )
     count = len(radii)
-    codes = np.unique(
+    codes = np.sort(
         np.concatenate([pairs[:, 0] * count + pairs[:, 1], pairs[:, 1] * count + pairs[:, 0]])
     )
+    codes = codes[np.diff(codes, prepend=-1) > 0]
     first, second = codes // count, codes % count
     return Crossings(np.searchsorted(first, np.arange(count + 1)), second)
 
@@ -72,6 +87,42 @@ def _sweep(legs: Floats, owners: Indices, radii: Floats, clearance: float) -> In
                 more[:count] = pairs
                 pairs = more
             pairs[count, 0], pairs[count, 1] = k, other
+            count += 1
+    return pairs[:count]
+
+
+@njit(cache=True)
+def _compare(
+    legs: Floats,
+    owners: Indices,
+    others: Floats,
+    other_owners: Indices,
+    radii: Floats,
+    clearance: float,
+) -> Indices:
+    """Pairs of hyperedges of which a leg of each list are too near."""
+    pairs = np.empty((64, 2), np.int64)
+    count = 0
+    for j in range(len(others)):
+        low_x, high_x = min(others[j, 0, 0], others[j, 1, 0]), max(others[j, 0, 0], others[j, 1, 0])
+        low_y, high_y = min(others[j, 0, 1], others[j, 1, 1]), max(others[j, 0, 1], others[j, 1, 1])
+        for i in range(len(legs)):
+            needed = MARGIN * (radii[owners[i]] + radii[other_owners[j]] + clearance)
+            if min(legs[i, 0, 0], legs[i, 1, 0]) > high_x + needed:
+                continue
+            if max(legs[i, 0, 0], legs[i, 1, 0]) < low_x - needed:
+                continue
+            if min(legs[i, 0, 1], legs[i, 1, 1]) > high_y + needed:
+                continue
+            if max(legs[i, 0, 1], legs[i, 1, 1]) < low_y - needed:
+                continue
+            if squared_gap(legs[i], others[j]) >= needed * needed:
+                continue
+            if count == len(pairs):
+                more = np.empty((2 * count, 2), np.int64)
+                more[:count] = pairs
+                pairs = more
+            pairs[count, 0], pairs[count, 1] = owners[i], other_owners[j]
             count += 1
     return pairs[:count]
 

@@ -10,6 +10,9 @@ from app.arrays import Floats
 PLACES = 24
 """Places along a curve at which its curvature is looked at."""
 
+CLOSER = 5
+"""Into so many parts the stretches beside the tightest place are divided."""
+
 HANDLES = np.array([0.38, 0.3, 0.46, 0.55, 0.24, 0.65, 0.8])
 """Lengths of handles to choose from, over the distance of the ends; the first are tried first."""
 
@@ -18,28 +21,37 @@ HANDLES = np.array([0.38, 0.3, 0.46, 0.55, 0.24, 0.65, 0.8])
 def least_radius(curve: Floats) -> float:
     """The least radius of curvature of a cubic (4, 3), infinite for a straight line.
 
-    Curvature is |B' x B''| over |B'| cubed, at `PLACES` + 1 places.
+    It is looked for at `PLACES` + 1 places, then between those beside the tightest.
     """
-    a0, a1, a2 = curve[1, 0] - curve[0, 0], curve[1, 1] - curve[0, 1], curve[1, 2] - curve[0, 2]
-    b0, b1, b2 = curve[2, 0] - curve[1, 0], curve[2, 1] - curve[1, 1], curve[2, 2] - curve[1, 2]
-    c0, c1, c2 = curve[3, 0] - curve[2, 0], curve[3, 1] - curve[2, 1], curve[3, 2] - curve[2, 2]
-    largest = 0.0
+    largest, tightest = 0.0, 0
     for i in range(PLACES + 1):
-        t = i / PLACES
-        s = 1.0 - t
-        u, v, w = s * s, 2.0 * s * t, t * t
-        x, y, z = u * a0 + v * b0 + w * c0, u * a1 + v * b1 + w * c1, u * a2 + v * b2 + w * c2
-        dx = s * (b0 - a0) + t * (c0 - b0)
-        dy = s * (b1 - a1) + t * (c1 - b1)
-        dz = s * (b2 - a2) + t * (c2 - b2)
-        square = x * x + y * y + z * z
-        if square <= 0.0:
-            return 0.0
-        nx, ny, nz = y * dz - z * dy, z * dx - x * dz, x * dy - y * dx
-        bend = (nx * nx + ny * ny + nz * nz) / (square * square * square)
-        largest = max(largest, bend)
-    # B' is three times these differences, B'' six times theirs: 6 * 3 / 3 ** 3 = 2 / 3.
-    return 1.5 / np.sqrt(largest) if largest > 0.0 else np.inf
+        bend = _squared_bend(curve, i / PLACES)
+        if bend > largest:
+            largest, tightest = bend, i
+    for k in range(-CLOSER + 1, CLOSER):
+        t = (tightest + k / CLOSER) / PLACES
+        largest = max(largest, _squared_bend(curve, min(max(t, 0.0), 1.0)))
+    return 1.0 / np.sqrt(largest) if largest > 0.0 else np.inf
+
+
+@njit(cache=True)
+def _squared_bend(curve: Floats, t: float) -> float:
+    """The square of the curvature at t: of |B' x B''| over |B'| cubed."""
+    s = 1.0 - t
+    x = y = z = dx = dy = dz = 0.0
+    for i in range(3):
+        weight = s * s if i == 0 else (2.0 * s * t if i == 1 else t * t)
+        change = -s if i == 0 else (s - t if i == 1 else t)
+        a, b = curve[i + 1, 0] - curve[i, 0], curve[i + 1, 1] - curve[i, 1]
+        c = curve[i + 1, 2] - curve[i, 2]
+        x, y, z = x + weight * a, y + weight * b, z + weight * c
+        dx, dy, dz = dx + change * a, dy + change * b, dz + change * c
+    square = x * x + y * y + z * z
+    if square <= 0.0:
+        return np.inf
+    nx, ny, nz = y * dz - z * dy, z * dx - x * dz, x * dy - y * dx
+    # B' is three times (x, y, z), B'' six times (dx, dy, dz): 6 * 3 / 3 ** 3 = 2 / 3.
+    return float(4.0 / 9.0 * (nx * nx + ny * ny + nz * nz) / (square * square * square))
 
 
 @njit(cache=True)

@@ -76,16 +76,21 @@ class Loom:
         """What is wrong around the ``active`` (e,) edges of a fabric."""
         woven = len(self.threads.radii)
         edges = np.repeat(np.arange(len(active)), np.diff(fabric.starts))
-        edges = np.append(edges, np.full(len(self.still.owners), len(active)))
-        owners = np.append(
-            np.repeat(self.owners, np.diff(fabric.starts)), self.still.owners + woven
-        )
+        owners = np.repeat(self.owners, np.diff(fabric.starts))
+        # What is far from all that is active need not be looked at.
+        reach = float(self.radii.max(initial=0.0)) * 2.0 + self.clearance
+        points = fabric.segments[active[edges]].reshape(-1, 3)
+        low = points.min(axis=0, initial=np.inf) - reach
+        high = points.max(axis=0, initial=-np.inf) + reach
+        near = self.still.near(low, high)
+        edges = np.append(edges, np.full(len(near), len(active)))
+        owners = np.append(owners, self.still.owners[near] + woven)
         faults = find_faults(
-            np.concatenate([fabric.segments, self.still.segments]),
+            np.concatenate([fabric.segments, self.still.segments[near]]),
             owners,
             self.radii[owners],
             self.clearance,
-            self.surroundings,
+            self.surroundings.near(low, high),
             np.append(active, False)[edges],
         )
         return Check(

@@ -32,22 +32,37 @@ class Threads:
 class Still:
     """g hyperedges that have curves and keep them.
 
-    ``segments`` (s, 4, 3) of the hyperedges ``owners`` (s,), numbered from 0; their ``feet``
+    ``segments`` (s, 4, 3) of the hyperedges ``owners`` (s,), numbered from 0, and their control
+    points' ``boxes`` (s, 2, 3), smallest coordinates and largest; their ``feet``
     (a, 2), of the hyperedges ``feet_owners`` (a,); ``planes`` and ``radii`` (g,).
     """
 
     segments: Floats
+    boxes: Floats
     owners: Indices
     feet: Floats
     feet_owners: Indices
     planes: Floats
     radii: Floats
 
+    def near(self, low: Floats, high: Floats) -> Indices:
+        """Numbers of the segments whose control points' box meets the one from low to high."""
+        meets = (self.boxes[:, 0] <= high) & (self.boxes[:, 1] >= low)
+        return np.flatnonzero(meets.all(axis=1))
+
     @staticmethod
     def nothing() -> Still:
         """Nothing stands still."""
         none = np.zeros(0, dtype=np.int64)
-        return Still(np.zeros((0, 4, 3)), none, np.zeros((0, 2)), none, np.zeros(0), np.zeros(0))
+        return Still(
+            np.zeros((0, 4, 3)),
+            np.zeros((0, 2, 3)),
+            none,
+            np.zeros((0, 2)),
+            none,
+            np.zeros(0),
+            np.zeros(0),
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,3 +71,11 @@ class Surroundings:
 
     obstacles: Obstacles
     attached: Indices
+
+    def near(self, low: Floats, high: Floats) -> Surroundings:
+        """Only the boxes that may come into the one from low to high."""
+        boxes = self.obstacles
+        reach = np.linalg.norm(boxes.halves, axis=1) + boxes.roundings
+        meets = (boxes.centers - reach[:, None] <= high) & (boxes.centers + reach[:, None] >= low)
+        rows = np.flatnonzero(meets.all(axis=1))
+        return Surroundings(boxes.only(rows), self.attached)

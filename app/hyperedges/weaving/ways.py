@@ -9,6 +9,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
+from app.hyperedges.clearance.box_tree import in_parts
+from app.hyperedges.rows import starts_of
 from app.hyperedges.weaving.detours import find_way
 from app.hyperedges.weaving.grid import Grid, collect
 from app.hyperedges.weaving.plan import BEND, NEXT, Plan
@@ -17,6 +19,15 @@ MOST_NEAR = 4096
 """Feet looked at for one edge."""
 
 MOST_CORNERS = 48
+
+BESIDE = 12.0
+"""How far beside its edge a way knows what is there, in radii: detours are short."""
+
+FEW = 100
+"""Hyperedges for which a thread is worth while."""
+
+WIDTH = 1.05
+"""Ways go around feet at so many times the distance that is needed."""
 
 OWN = 2.2
 """Distance in radii that edges keep from other feet of their own hyperedge."""
@@ -33,7 +44,6 @@ class Ways(NamedTuple):
     blocked: NDArray[np.bool_]
 
 
-@njit(cache=True)
 def find_ways(
     plan: Plan,
     leaving: Floats,
@@ -43,16 +53,45 @@ def find_ways(
     feet_owners: Indices,
     planes: Floats,
     radii: Floats,
-    widths: Floats,
     clearance: float,
 ) -> Ways:
     """Ways between ``ends`` (e, 2, 2), around feet of hyperedges whose ``planes`` are higher.
 
-    ``leaving`` (e, 2, 2) are the directions in which they have left joins.
-    ``feet`` (a, 2) are of the hyperedges ``feet_owners`` (a,); ``planes`` and ``radii`` (h,);
-    ``widths`` (h,) is how much wider than needed (1 or more) each hyperedge goes around them.
+    ``leaving`` (e, 2, 2) are the directions in which they have left joins. ``feet`` (a, 2) are of
+    the hyperedges ``feet_owners`` (a,); ``planes`` and ``radii`` (h,).
     """
-    edges = len(plan.edges)
+    parts = in_parts(
+        len(plan.starts) - 1,
+        lambda begin, end: _find(
+            begin, end, plan, leaving, ends, grid, feet, feet_owners, planes, radii, clearance
+        ),
+        few=FEW,
+    )
+    counts = np.concatenate([np.diff(part.starts) for part in parts])
+    return Ways(
+        starts_of(counts),
+        np.concatenate([part.corners for part in parts]),
+        np.concatenate([part.blocked for part in parts]),
+    )
+
+
+@njit(cache=True, nogil=True)
+def _find(
+    begin: int,
+    end: int,
+    plan: Plan,
+    leaving: Floats,
+    ends: Floats,
+    grid: Grid,
+    feet: Floats,
+    feet_owners: Indices,
+    planes: Floats,
+    radii: Floats,
+    clearance: float,
+) -> Ways:
+    """The same for the hyperedges from ``begin`` to ``end``."""
+    before = plan.edge_starts[begin]
+    edges = plan.edge_starts[end] - before
     starts = np.zeros(edges + 1, np.int64)
     corners = np.empty((edges + 16, 2))
     blocked = np.zeros(edges, np.bool_)
@@ -64,39 +103,29 @@ def find_ways(
     for r in radii:
         widest = max(widest, r)
     count = 0
-    for k in range(len(plan.starts) - 1):
-        reach = widths[k] * max(radii[k] + widest + clearance, BEND * widest)
+    for k in range(begin, end):
+        reach = WIDTH * max(radii[k] + widest + clearance, BEND * widest)
         for e in range(plan.edge_starts[k], plan.edge_starts[k + 1]):
-            u, v = plan.edges[e, 0], plan.edges[e, 1]
             ax, ay = ends[e, 0, 0], ends[e, 0, 1]
             bx, by = ends[e, 1, 0], ends[e, 1, 1]
             length = np.hypot(bx - ax, by - ay)
-            near = collect(grid, ax, ay, bx, by, reach + 1.0 + 0.3 * length, found)
+            beside = min(BESIDE * radii[k], 0.3 * length)
+            near = collect(grid, ax, ay, bx, by, reach + beside, found)
             m = 0
             for i in range(near):
-                foot = found[i]
-                other = feet_owners[foot]
-                if other == k:
-                    local = foot - plan.starts[k]
-                    if local in (u, v):
-                        continue
-                    size = OWN * radii[k]
-                elif planes[other] > planes[k]:
-                    size = max(radii[k] + radii[other] + clearance, BEND * radii[other])
-                    size = max(size, BEND * 1.05 * radii[k]) * widths[k]
-                else:
-                    continue
-                x, y = feet[foot, 0], feet[foot, 1]
-                # An end within a disc could never leave it.
-                size = min(size, 0.98 * np.hypot(x - ax, y - ay), 0.98 * np.hypot(x - bx, y - by))
-                discs[m, 0], discs[m, 1], discs[m, 2] = x, y, size
-                m += 1
+                size = _size(plan, k, e, found[i], feet_owners, planes, radii, clearance)
+                if size > 0.0:
+                    x, y = feet[found[i], 0], feet[found[i], 1]
+                    # An end within a disc could never leave it.
+                    room = min(np.hypot(x - ax, y - ay), np.hypot(x - bx, y - by))
+                    discs[m, 0], discs[m, 1], discs[m, 2] = x, y, min(size, 0.98 * room)
+                    m += 1
             bend = BEND * radii[k]
             m = _add_turns(ends[e], leaving[e], NEXT * radii[k], bend, discs, m)
             headings[0], headings[1] = leaving[e, 0], -leaving[e, 1]
             turns = find_way(ax, ay, bx, by, discs[:m], headings, bend, way)
             if turns < 0:
-                blocked[e] = True
+                blocked[e - before] = True
                 turns = 0
             if count + turns > len(corners):
                 more = np.empty((2 * (count + turns), 2))
@@ -105,8 +134,30 @@ def find_ways(
             for i in range(turns):
                 corners[count + i] = way[i + 1]
             count += turns
-            starts[e + 1] = count
+            starts[e + 1 - before] = count
     return Ways(starts, corners[:count], blocked)
+
+
+@njit(cache=True)
+def _size(
+    plan: Plan,
+    k: int,
+    e: int,
+    foot: int,
+    owners: Indices,
+    planes: Floats,
+    radii: Floats,
+    clearance: float,
+) -> float:
+    """Radius of the disc around a foot that edge ``e`` of hyperedge k avoids, zero for none."""
+    other = owners[foot]
+    if other == k:
+        local = foot - plan.starts[k]
+        return 0.0 if local in (plan.edges[e, 0], plan.edges[e, 1]) else OWN * radii[k]
+    if planes[other] <= planes[k]:
+        return 0.0
+    needed = max(radii[k] + radii[other] + clearance, BEND * radii[other])
+    return float(WIDTH * max(needed, BEND * 1.05 * radii[k]))
 
 
 @njit(cache=True)

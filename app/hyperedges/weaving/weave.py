@@ -34,9 +34,6 @@ from app.hyperedges.weaving.ways import Ways, find_ways
 ATTEMPTS = 6
 """How often what fails is moved above the rest, at most."""
 
-WIDTH = 1.05
-"""Ways go around feet at so many times the distance that is needed."""
-
 CELL = 12.0
 """Size of the cells in which feet are sorted, over the mean radius."""
 
@@ -96,12 +93,7 @@ def weave(
     )
     lows = np.concatenate([lows, still.planes])
     fixed = np.concatenate([threads.given, np.ones(len(still.planes), dtype=np.bool_)])
-    crossings = find_crossings(
-        np.concatenate([direct, still_legs]),
-        np.concatenate([edges, still_owners]),
-        radii,
-        clearance,
-    )
+    crossings = find_crossings(direct, edges, still_legs, still_owners, radii, clearance)
     tops = highest_under(
         still_legs, still_owners, feet.places, feet.owners, lows, radii, clearance, woven
     )
@@ -174,12 +166,13 @@ def _try(
     still, radii, clearance = loom.still, loom.radii, loom.clearance
     woven = len(loom.threads.radii)
     around = (feet.grid, feet.places, feet.owners, planes, radii)
-    widths = np.full(woven, WIDTH)
-    ways = find_ways(plan, leaving, ends, *around, widths, clearance)
+    ways = find_ways(plan, leaving, ends, *around, clearance)
     legs, owners = around_legs(plan, ends, edges, ways)
     crossings = find_crossings(
-        np.concatenate([direct_legs(plan), legs, control_legs(still.segments)]),
-        np.concatenate([edges, owners, np.repeat(still.owners + woven, 3)]),
+        np.concatenate([direct_legs(plan), legs]),
+        np.concatenate([edges, owners]),
+        control_legs(still.segments),
+        np.repeat(still.owners + woven, 3),
         radii,
         clearance,
     )

@@ -1,0 +1,102 @@
+"""A program's layout: where its items stand and its hyperedges run, and what is proven of that."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from app.arrays import Floats, Indices
+from app.hyperedges.clearance.certificate import certify
+from app.hyperedges.pinches import find_pinches
+from app.hyperedges.route import route
+from app.hyperedges.routing import Routing
+from app.hyperedges.woven import Previous
+from app.notations.loader import load_notation
+from app.output.clearance_numbers import Verdict
+from app.placement.place import place
+from app.placement.placement import Placement
+from app.program.model import Program
+
+Progress = Callable[[str, float], None]
+"""Told what is being done and which share of the whole is done, from 0 to 1.
+
+It may raise to end the work.
+"""
+
+
+def silent(_stage: str, _share: float) -> None:
+    """Progress that nobody listens to."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layout:
+    """A program with its placement and its routing."""
+
+    program: Program
+    placement: Placement
+    routing: Routing
+
+
+def lay_out(
+    program: Program, previous: Layout | None = None, progress: Progress = silent
+) -> Layout:
+    """The layout that the document's ``layout`` wishes for.
+
+    With the layout of a ``previous`` state of the program, hyperedges of the same id keep their
+    curves to the last bit, unless their attachments moved or something new is in their way.
+    """
+    progress("placing items", 0.1)
+    placement = place(program, load_notation(program.notation))
+    progress("laying out hyperedges", 0.2)
+    wishes = program.layout
+    routing = route(
+        placement,
+        curves=wishes.curves or _usual_curves(program),
+        fidelity=wishes.fidelity,
+        closest=wishes.closest,
+        clearance=wishes.clearance,
+        join_heights=_join_heights(program),
+        previous=None if previous is None else _previous(program, previous),
+        progress=lambda share: progress("laying out hyperedges", 0.2 + 0.2 * share),
+    )
+    return Layout(program, placement, routing)
+
+
+def judge(layout: Layout) -> Verdict | None:
+    """What is proven about distances; None where the document wants no clearance."""
+    clearance = layout.program.layout.clearance
+    if clearance is None:
+        return None
+    certificate = certify(layout.routing, layout.placement, clearance)
+    return Verdict(certificate, find_pinches(layout.routing))
+
+
+def _usual_curves(program: Program) -> Literal["steiner", "prose"]:
+    return "prose" if program.layout.fidelity == "paper" else "steiner"
+
+
+def _join_heights(program: Program) -> Floats:
+    return np.array(
+        [
+            np.nan if hyperedge.join_height is None else hyperedge.join_height
+            for hyperedge in program.hyperedges
+        ],
+        dtype=np.float64,
+    )
+
+
+def _previous(program: Program, previous: Layout) -> Previous | None:
+    if previous.program.layout != program.layout:
+        return None
+    return Previous(previous.placement, previous.routing, _numbers(program, previous.program))
+
+
+def _numbers(program: Program, previous: Program) -> Indices:
+    """Which hyperedge of the previous program each one was, -1 for new ones."""
+    before = {hyperedge.id: number for number, hyperedge in enumerate(previous.hyperedges)}
+    return np.array(
+        [before.get(hyperedge.id, -1) for hyperedge in program.hyperedges], dtype=np.int64
+    )
