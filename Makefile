@@ -27,8 +27,8 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	tools/system-packages.sh
 	$(PIP) install --require-hashes -r requirements.lock
 	$(PIP) install --no-deps --editable .
-	@echo "Compiling kernels, once …"
-	$(BIN)/tubeloom render examples/hello.json -o $(VENV)/hello.glb
+	@echo "Compiling kernels, once: some two minutes …"
+	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.glb
 	@touch $@
 
 $(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json $(VENV)/runtime.done
