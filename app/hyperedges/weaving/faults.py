@@ -12,7 +12,7 @@ from app.hyperedges.clearance.obstacles import near_obstacles, obstacle_gaps
 from app.hyperedges.clearance.pairs import gaps, near_pairs
 from app.hyperedges.weaving.threads import Surroundings
 
-PINCH = 1.52
+PINCH = 1.53
 """Least radius of curvature over the tube's radius: a little more than the 1.5 that is asked for,
 because it is looked for at some places only."""
 

@@ -168,9 +168,12 @@ def _try(
     around = (feet.grid, feet.places, feet.owners, planes, radii)
     ways = find_ways(plan, leaving, ends, *around, clearance)
     legs, owners = around_legs(plan, ends, edges, ways)
+    legs, owners = np.concatenate([direct_legs(plan), legs]), np.concatenate([edges, owners])
+    above = pass_above(legs, owners, radii, clearance, loom.surroundings.obstacles, lows)
+    lows = np.where(fixed, lows, above)
     crossings = find_crossings(
-        np.concatenate([direct_legs(plan), legs]),
-        np.concatenate([edges, owners]),
+        legs,
+        owners,
         control_legs(still.segments),
         np.repeat(still.owners + woven, 3),
         radii,
