@@ -113,7 +113,7 @@ def _lay_arch(start: End, end: End, plane: float, radius: float, curve: Floats) 
 @njit(cache=True)
 def _rise(curve: Floats, up: Floats, ahead: Floats, plane: float, radius: float) -> None:
     """From an attachment that is left along ``up`` to a join in the plane that is met ``ahead``."""
-    if up[2] < 0.7:
+    if up[2] < 0.7 or plane - curve[0, 2] < radius:
         bend_between(curve, up, ahead, BEND * radius)
         return
     run = np.hypot(curve[3, 0] - curve[0, 0], curve[3, 1] - curve[0, 1])
@@ -197,6 +197,8 @@ def _wide(end: End, plane: float, radius: float, broad: float) -> float:
     # A quarter ellipse, narrower or broader where its ends would pinch.
     rise = plane - end.lift
     tight = BEND * radius
+    if rise < tight:
+        return tight
     narrowest = max(tight, np.sqrt(tight * rise))
     return float(max(narrowest, min(broad * rise, rise * rise / tight)))
 
@@ -246,6 +248,12 @@ def _climb(
         low[:] = cubics[0, 3]
         count = 1
     bend = plane - low[2]
+    if bend < radius:
+        # A plane so low, or lower than that, was asked for: up, and down again.
+        cubics[count, 0] = low
+        cubics[count, 3] = at
+        bend_between(cubics[count], np.array([0.0, 0.0, 1.0]), ahead, BEND * radius)
+        return count + 1
     if taken <= 1.01 * BEND * radius and bend > 1.2 * BEND * radius:
         # A tight bend is a quarter circle at the top of a straight riser.
         straight = bend - BEND * radius
