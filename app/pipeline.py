@@ -49,7 +49,7 @@ TUBE_TOLERANCE = 0.02
 where no picture of the size asked for could show it; see `app.scene.detail`."""
 
 
-MakeTubes = Callable[[Program, Routing, float | Floats], Tubes | UnsweptTubes]
+Sweeping = Callable[[Program, Routing, float | Floats], Tubes | UnsweptTubes]
 """Makes tubes that are off by no more than a tolerance: one for all, or one for each (h,)."""
 
 
@@ -107,8 +107,8 @@ def _render(
         bodies = partial(make_bodies, most=settings.max_print_triangles, progress=progress)
         scene = make_scene(program, aspect, progress, bodies)
     else:
-        make = make_crowd if _is_crowd(program, options) else make_tubes
-        scene = make_scene(program, aspect, progress, make, options.height)
+        sweeping = make_crowd if _is_crowd(program, options) else make_tubes
+        scene = make_scene(program, aspect, progress, sweeping=sweeping, height=options.height)
     if options.format.is_printed:
         refuse_too_many(triangles_of(scene, options.parts), settings.max_print_triangles)
     progress("writing", 0.6)
@@ -163,19 +163,25 @@ def make_scene(
     program: Program,
     aspect: float,
     progress: Progress = silent,
-    tubes_of: MakeTubes | None = None,
+    tubes_of: Callable[[Program, Routing], Tubes] | None = None,
+    sweeping: Sweeping | None = None,
     height: int | None = None,
 ) -> Scene:
     """Place, route, make tubes, assemble: everything between reading and writing.
 
-    Tubes are no finer than shows in a picture ``height`` pixels high, where there is one.
+    Tubes are what ``tubes_of`` makes, or else ``sweeping`` (`make_tubes`); these are no finer than
+    shows in a picture ``height`` pixels high, where there is one.
     """
     notation = load_notation(program.notation)
     laid = lay_out(program, progress=progress)
     placement, routing = laid.placement, laid.routing
     progress("making tubes", 0.4)
-    tolerance = _tolerance(program, placement, routing, aspect, height)
-    tubes = (tubes_of or make_tubes)(program, routing, tolerance)
+    tubes: Tubes | UnsweptTubes
+    if tubes_of is not None:
+        tubes = tubes_of(program, routing)
+    else:
+        tolerance = _tolerance(program, placement, routing, aspect, height)
+        tubes = (sweeping or make_tubes)(program, routing, tolerance)
     progress("assembling the scene", 0.5)
     return assemble(program, notation, placement, tubes, aspect)
 
@@ -194,14 +200,7 @@ def make_crowd(_program: Program, routing: Routing, tolerance: float | Floats) -
     return UnsweptTubes.of(routing, tolerance)
 
 
-def make_bodies(
-    program: Program,
-    routing: Routing,
-    _tolerance: float | Floats,
-    *,
-    most: int,
-    progress: Progress,
-) -> Tubes:
+def make_bodies(program: Program, routing: Routing, *, most: int, progress: Progress) -> Tubes:
     """Tubes for printing: each hyperedge one closed body, of ``most`` triangles together."""
     if not program.hyperedges:
         return Tubes.none()

@@ -65,7 +65,7 @@ def weave_all(
     if previous is not None:
         kept = _unmoved(placement, join_heights, previous)
         new = Surroundings(_new(surroundings.obstacles, previous.placement), surroundings.attached)
-        kept &= ~_at_items(kept, placement, previous, new, clearance)
+        kept &= ~_too_near(kept, placement, previous, new, clearance)
     for attempt in range(HITS + 1):
         if attempt == HITS:
             kept[:] = False
@@ -188,14 +188,14 @@ def _bytes(obstacles: Obstacles) -> NDArray[np.void]:
     return np.ascontiguousarray(rows).view(np.dtype((np.void, rows.itemsize * 16))).ravel()
 
 
-def _at_items(
+def _too_near(
     kept: NDArray[np.bool_],
     placement: Placement,
     previous: Previous,
     surroundings: Surroundings,
     clearance: float,
 ) -> NDArray[np.bool_]:
-    """Which of the hyperedges that are kept are too near to items now, (h,)."""
+    """Which of the hyperedges that are kept are too near to new items, or to each other, (h,)."""
     found = np.zeros(len(kept), dtype=np.bool_)
     standing = np.flatnonzero(kept)
     old = _standing(previous, standing)
@@ -209,7 +209,7 @@ def _at_items(
         clearance,
         surroundings,
         np.ones(len(owners), dtype=np.bool_),
-        only_items=True,
     )
     found[owners[faults.at_items]] = True
+    found[owners[faults.pairs]] = True
     return found

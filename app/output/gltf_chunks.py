@@ -30,7 +30,7 @@ class Chunk:
     """Those ``members`` (m,) of a crowd that are drawn at once, around ``center`` (3,).
 
     ``surface`` is the number of their material. ``step`` is the grid on which 16 bits number all
-    positions, or ``None`` where the chunk, being one hyperedge, is too large for that.
+    positions, or ``None`` where members are too large for that, each alone.
     """
 
     crowd: Crowd
@@ -77,11 +77,13 @@ def crowd_of(nodes: Sequence[Node], materials: Sequence[Material]) -> Crowd:
 
 def chunks_of(crowd: Crowd) -> list[Chunk]:
     """All members of ``crowd``, in chunks."""
-    steps = spacing(crowd.radii)
+    spread = _Spread.of(crowd)
+    has_grid = ~np.isnan(spread.steps)
     return [
-        Chunk(crowd, members, surface, _center(crowd, members), _step(crowd, steps, members))
+        Chunk(crowd, members, surface, spread.center(members), spread.step(members))
         for surface in np.unique(crowd.surfaces).tolist()
-        for members in _divide(crowd, steps, np.flatnonzero(crowd.surfaces == surface))
+        for kind in (has_grid, ~has_grid)
+        for members in spread.divide(np.flatnonzero(kind & (crowd.surfaces == surface)))
     ]
 
 
@@ -108,36 +110,58 @@ def _renumber(faces: Faces, face_starts: Indices, vertex_starts: Indices) -> Non
                 faces[face, corner] += first
 
 
-def _divide(crowd: Crowd, steps: Floats, members: Indices) -> list[Indices]:
-    """Groups of ``members`` that are small enough, or of one; each in ascending order."""
-    if len(members) == 1 or _is_small(crowd, steps, members):
-        return [np.sort(members)]
-    middles = crowd.boxes[members].mean(axis=1)
-    axis = int(np.argmax(np.ptp(middles, axis=0)))
-    members = members[np.argsort(middles[:, axis], kind="stable")]
-    total = np.cumsum(crowd.vertex_counts[members])
-    half = min(int(np.searchsorted(total, total[-1] / 2)) + 1, len(members) - 1)
-    return _divide(crowd, steps, members[:half]) + _divide(crowd, steps, members[half:])
+@dataclass(frozen=True, slots=True, eq=False)
+class _Spread:
+    """A crowd with the middles (h, 3) of its boxes and the steps (h,) of its members' grids.
+
+    A step is not a number where the radius is none, or the hyperedge alone too large for the grid.
+    """
+
+    crowd: Crowd
+    middles: Floats
+    steps: Floats
+
+    @staticmethod
+    def of(crowd: Crowd) -> _Spread:
+        low, high = crowd.boxes[:, 0], crowd.boxes[:, 1]
+        reaches = (high - low).max(axis=1) / 2 + _slack(np.abs(crowd.boxes).max(axis=(1, 2)))
+        steps = spacing(crowd.radii)
+        return _Spread(crowd, (low + high) / 2, np.where(fits(reaches, steps), steps, np.nan))
+
+    def divide(self, members: Indices) -> list[Indices]:
+        """Groups of ``members`` that are small enough, or of one; each in ascending order."""
+        if len(members) == 0:
+            return []
+        if len(members) == 1 or self._is_small(members):
+            return [np.sort(members)]
+        middles = self.middles[members]
+        axis = int(np.argmax(middles.max(axis=0) - middles.min(axis=0)))
+        members = members[np.argsort(middles[:, axis], kind="stable")]
+        total = np.cumsum(self.crowd.vertex_counts[members])
+        half = min(int(np.searchsorted(total, total[-1] / 2)) + 1, len(members) - 1)
+        return self.divide(members[:half]) + self.divide(members[half:])
+
+    def center(self, members: Indices) -> Floats:
+        """Their middle, rounded to single precision: so that differences lose nothing."""
+        boxes = self.crowd.boxes[members]
+        middle = (boxes[:, 0].min(axis=0) + boxes[:, 1].max(axis=0)) / 2
+        return np.asarray(middle.astype(np.float32).astype(np.float64))
+
+    def step(self, members: Indices) -> float | None:
+        """The widest grid that suits all members, if 16 bits number all of them on it."""
+        step = float(self.steps[members].min())
+        center = self.center(members)
+        boxes = self.crowd.boxes[members]
+        reach = float(np.abs(boxes - center).max() + _slack(np.abs(boxes).max()))
+        return step if fits(reach, step) else None
+
+    def _is_small(self, members: Indices) -> bool:
+        if int(self.crowd.vertex_counts[members].sum()) > MOST_SHORT:
+            return False
+        # Where there is no grid, there is none that is too small.
+        return bool(np.isnan(self.steps[members[0]])) or self.step(members) is not None
 
 
-def _is_small(crowd: Crowd, steps: Floats, members: Indices) -> bool:
-    if int(crowd.vertex_counts[members].sum()) > MOST_SHORT:
-        return False
-    # Where radii are not known there is no grid, and so none that is too small.
-    is_known = not np.isnan(steps[members]).any()
-    return not is_known or _step(crowd, steps, members) is not None
-
-
-def _center(crowd: Crowd, members: Indices) -> Floats:
-    """The middle of members, rounded to single precision: so that differences lose nothing."""
-    low, high = crowd.boxes[members, 0].min(axis=0), crowd.boxes[members, 1].max(axis=0)
-    return np.asarray(((low + high) / 2).astype(np.float32).astype(np.float64))
-
-
-def _step(crowd: Crowd, steps: Floats, members: Indices) -> float | None:
-    """The widest grid that suits all members, if 16 bits number all of them on it."""
-    step = float(steps[members].min())
-    center = _center(crowd, members)
-    reach = float(np.abs(crowd.boxes[members] - center).max())
-    # Vertices are of single precision, and may stand out of their boxes by as much.
-    return step if fits(reach + 1e-6 * float(np.abs(center).max() + reach), step) else None
+def _slack(largest: Floats) -> Floats:
+    """How far vertices may stand out of their boxes: they are of single precision."""
+    return 1e-6 * largest

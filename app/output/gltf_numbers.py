@@ -33,8 +33,10 @@ def spacing(radius: Length) -> Length:
     return radius * (2.0 * MOVED / math.sqrt(3.0))
 
 
-def fits(reach: float, step: float) -> bool:
+def fits(reach: Length, step: Length) -> Any:
     """Whether coordinates from -``reach`` to ``reach`` are numbered by 16 bits at ``step``.
+
+    One or many; nothing fits a step that is not a number.
 
     >>> fits(32.767, 0.001), fits(32.769, 0.001)
     (True, False)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
 from typing import Any
@@ -14,7 +15,7 @@ import numpy as np
 from app.output.gltf_blocks import Block, block_of, block_of_chunk
 from app.output.gltf_chunks import Chunk, chunks_of, crowd_of
 from app.output.gltf_numbers import MOST_STEPS, fits, spacing
-from app.output.gltf_views import MESHOPT, Laid, lay
+from app.output.gltf_views import MESHOPT, Laid, encoded, lay
 from app.output.media import Compression
 from app.scene.scene import Material, Node, Scene
 from app.solids.mesh import Mesh
@@ -29,7 +30,8 @@ in no time, and editors find them by name."""
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 _THREADS = 2
-"""Blocks made at once: most of the time goes into encoding, which needs no Python."""
+_AHEAD = 8
+"""Blocks that may wait to be encoded: they take memory."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,10 +193,20 @@ def _steps(nodes: Sequence[Node]) -> dict[int, float]:
 
 
 def _made(tasks: Sequence[Callable[[], Block]]) -> list[Block]:
-    if len(tasks) < 2:
-        return [task() for task in tasks]
+    """All blocks, encoded: other threads do that, which needs no Python, while more are made."""
+    blocks: list[Block] = []
+    waiting: deque[Future[Block]] = deque()
     with ThreadPoolExecutor(_THREADS) as pool:
-        return list(pool.map(lambda task: task(), tasks))
+        for task in tasks:
+            waiting.append(pool.submit(_encoded, task()))
+            if len(waiting) > _AHEAD:
+                blocks.append(waiting.popleft().result())
+        blocks += [future.result() for future in waiting]
+    return blocks
+
+
+def _encoded(block: Block) -> Block:
+    return replace(block, views=[encoded(view) for view in block.views])
 
 
 def _kept(node: Node, places: Mapping[int, int], steps: Mapping[int, float]) -> PackedNode:

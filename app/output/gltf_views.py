@@ -21,8 +21,8 @@ _VERTICES, _TRIANGLES = 34962, 34963  # what a view is for, by OpenGL's numbers
 class View:
     """``count`` rows of ``stride`` bytes each.
 
-    ``pieces`` (anything like bytes) are what is stored of them: the rows, or, where there is a
-    ``mode``, what the codec of that name makes of them; the ``filter`` is to be undone after it.
+    ``pieces`` (anything like bytes) are the rows, or, where there is a ``mode``, at last what the
+    codec of that name makes of them; readers undo the ``filter`` after it.
     """
 
     pieces: Sequence[Any]
@@ -48,22 +48,24 @@ def vertices(
 ) -> View:
     """What there is once for each vertex: rows (v, k) of a multiple of 4 bytes, in ``pieces``."""
     stride = pieces[0].itemsize * pieces[0].shape[1]
-    found = View(pieces, sum(map(len, pieces)), stride, _VERTICES)
-    return _encoded(found, "ATTRIBUTES", filtered) if encode else found
+    mode: Mode | None = "ATTRIBUTES" if encode else None
+    return View(pieces, sum(map(len, pieces)), stride, _VERTICES, mode, filtered)
 
 
 def triangles(pieces: Sequence[NDArray[Any]], *, encode: bool) -> View:
     """Triangles' vertex numbers (3 f,), uint16 or uint32, in ``pieces``."""
-    found = View(pieces, sum(map(len, pieces)), pieces[0].itemsize, _TRIANGLES)
-    return _encoded(found, "TRIANGLES") if encode else found
+    mode: Mode | None = "TRIANGLES" if encode else None
+    return View(pieces, sum(map(len, pieces)), pieces[0].itemsize, _TRIANGLES, mode)
 
 
-def _encoded(view: View, mode: Mode, filtered: Filter | None = None) -> View:
+def encoded(view: View) -> View:
+    """The same view with rows as they are stored: encoded, if it has a mode."""
+    if view.mode is None:
+        return view
     from meshopt import encode_gltf_buffer
 
     rows = view.pieces[0] if len(view.pieces) == 1 else np.concatenate(view.pieces)
-    data = encode_gltf_buffer(rows, mode)
-    return replace(view, pieces=[data], mode=mode, filter=filtered)
+    return replace(view, pieces=[encode_gltf_buffer(rows, view.mode)])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -36,7 +36,14 @@ def test_gltf_is_compressed_and_merged_as_asked(
 
 
 def test_another_way_has_another_validator(client: httpx.Client) -> None:
-    queries = ["", "compress=quantize", "compress=meshopt", "merge=true", "merge=false", "height=99"]
+    queries = [
+        "",
+        "compress=quantize",
+        "compress=meshopt",
+        "merge=true",
+        "merge=false",
+        "height=99",
+    ]
     tags = {client.post(f"/v1/render?{query}", json=SMALL).headers["etag"] for query in queries}
     assert len(tags) == len(queries)
 

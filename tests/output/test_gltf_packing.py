@@ -17,6 +17,7 @@ from app.output.gltf_chunks import MOST_SHORT
 from app.output.gltf_numbers import MOVED
 from app.output.gltf_packing import MANY, Packing
 from app.output.media import Compression
+from app.pipeline import make_crowd, make_scene
 from app.scene.scene import Node, Primitive, Scene
 from app.solids.mesh import Mesh
 from tests.output.gltf_reader import Asset
@@ -25,6 +26,7 @@ from tests.output.woven_scenes import (
     corners_of,
     grid_scene,
     hyperedges_of,
+    program_in_a_grid,
     scaled,
     tubes_read_back,
 )
@@ -196,6 +198,50 @@ def test_many_hyperedges_are_merged_unless_asked_otherwise(count: int, chunks: i
     scene = replace(scene, nodes=(*scene.nodes, *nodes))
     assert len(chunk_nodes(asset_of(scene, Packing()))) == chunks
     assert not chunk_nodes(asset_of(scene, Packing(merge=False)))
+
+
+@every_way
+def test_a_crowd_is_written_as_nodes_that_are_merged(packing: Packing) -> None:
+    program = program_in_a_grid(40)
+    crowded = make_scene(program, 4 / 3, sweeping=make_crowd)
+    assert not hyperedges_of(crowded)
+    usual = make_scene(program, 4 / 3)
+    one = tubes_read_back(asset_of(crowded, packing))
+    other = tubes_read_back(asset_of(usual, replace(packing, merge=True)))
+    assert set(one) == set(other)
+    assert all(np.array_equal(one[name][k], other[name][k]) for name in one for k in (1, 2)), (
+        "normals and colours"
+    )
+    for name, node in hyperedges_of(usual).items():
+        assert one[name][0] == pytest.approx(other[name][0], abs=2 * MOVED * (node.radius or 0))
+    camera, expected = crowded.camera, usual.camera
+    assert camera.position == pytest.approx(expected.position, rel=1e-3)
+    assert crowded.bounds == pytest.approx(usual.bounds, abs=0.01)
+
+
+def test_what_crowds_say_of_themselves_is_what_nodes_would() -> None:
+    program = program_in_a_grid(9)
+    crowded = make_scene(program, 4 / 3, sweeping=make_crowd)
+    said = [
+        each
+        for chunk in chunk_nodes(asset_of(crowded, Packing()))
+        for each in chunk["extras"]["hyperedges"]
+    ]
+    own = [node.extras for node in hyperedges_of(make_scene(program, 4 / 3)).values()]
+    assert sorted(map(json.dumps, said)) == sorted(map(json.dumps, own))
+
+
+@merged_and_smaller
+def test_large_hyperedges_are_merged_with_each_other(compress: Compression) -> None:
+    base = scene_of(program_of(items=[{"id": "x"}]))
+    long = strip(9)
+    long = replace(long, vertices=long.vertices * np.array([1000, 1, 1], dtype=np.float32))
+    nodes = [hyperedge(f"long {y}", long, (0.0, y, 0.0)) for y in (1.0, 2.0, 3.0)]
+    nodes += [hyperedge("short", strip(5)), hyperedge("other", strip(5), (3.0, 0.0, 0.0))]
+    asset = asset_of(replace(base, nodes=tuple(nodes)), Packing(compress, merge=True))
+    chunks = {len(chunk["extras"]["hyperedges"]): chunk for chunk in chunk_nodes(asset)}
+    assert component(asset, chunks[3]) == 5126
+    assert component(asset, chunks[2]) == 5122
 
 
 def hyperedge(name: str, mesh: Mesh, place: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Node:

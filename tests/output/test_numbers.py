@@ -59,7 +59,7 @@ def two_arches(second_height: float, sharp: bool = False) -> Routing:
     """From x to y, and from y to z past x: both in one plane."""
     curves = np.array([arch(0, 3.0), arch(0, second_height)])
     if sharp:
-        curves[0, 1:3] = [[2, 0, 9], [0, 0, 9]]
+        curves[0, 1:3] = np.array([[2.0, 0, 9], [0, 0, 9]])
     return Routing(
         control_points=curves,
         segment_starts=np.array([0, 1, 2]),
@@ -164,7 +164,7 @@ def test_conflicts_name_the_hyperedges_and_the_place() -> None:
 
 def test_a_tube_too_near_to_an_item_names_the_item() -> None:
     routing = two_arches(3.0)
-    routing.control_points[1] = [[0, 0, 0.5], [1, 0, 3.5], [4, 0, 3.5], [4, 0, 0]]
+    routing.control_points[1] = np.array([[0, 0, 0.5], [1, 0, 3.5], [4, 0, 3.5], [4, 0, 0]])
     found = numbers(routing=routing, clearance=0.05)["clearance"]["conflicts"]
     assert [(one["hyperedges"], one["item"]) for one in found if one["item"]] == [(["f"], "z")]
 

@@ -39,7 +39,7 @@ def both() -> tuple[Placement, Routing]:
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize("height", [100, 3000])
-def test_meshes_are_off_by_about_a_tenth_of_a_pixel_at_most(
+def test_meshes_are_off_by_a_tenth_of_a_pixel_at_most(
     projection: Any, height: int, both: tuple[Placement, Routing]
 ) -> None:
     program = program_in_a_grid(40, items=400, view={"projection": projection})
@@ -51,8 +51,8 @@ def test_meshes_are_off_by_about_a_tenth_of_a_pixel_at_most(
         vertices = tubes.mesh(number).vertices[:1].astype(np.float64)
         up = np.array(camera.up) * off
         pixels = (seen_by(camera, vertices + up) - seen_by(camera, vertices))[:, 1] * height / 2
-        # The camera of the scene stands a little nearer: boxes are larger than what is in them.
-        assert np.abs(pixels).max() <= 1.25 * UNSEEN
+        # Items are seen as boxes, edges and all, and so from a little farther away.
+        assert np.abs(pixels).max() <= 1.02 * UNSEEN
 
 
 def test_far_tubes_may_be_off_further(both: tuple[Placement, Routing]) -> None:

@@ -32,6 +32,9 @@ BROAD = np.array([0.0, 1.3, 0.7])
 WIDE = 1.7
 """Radius of the arcs around corners, in radii of the tube, where there is room."""
 
+UPRIGHT = 0.7
+"""Directions with a smaller z count as sideways."""
+
 STRAIGHT = 1e-3
 """Turns smaller than this angle are none."""
 
@@ -65,16 +68,33 @@ def lay_course(
     Writes them to ``cubics`` (`ROOM`, 4, 3); returns how many there are, and their least radius of
     curvature over ``radius``.
     """
-    if strictness == SOFT:
+    if strictness == SOFT and not _turned_away(start, end):
         count = _lay_soft(start, end, plane, radius, cubics)
     elif strictness < STEEP:
-        count = _lay_flat(start, end, plane, radius, BROAD[strictness], cubics)
+        broad = BROAD[max(strictness, FLAT)]
+        count = _lay_flat(start, end, plane, radius, broad, cubics)
     else:
         count = _lay_strict(start, end, way, plane, radius, cubics)
     least = np.inf
     for i in range(count):
         least = min(least, least_radius(cubics[i]))
     return count, least / radius
+
+
+@njit(cache=True)
+def _turned_away(start: End, end: End) -> bool:
+    """Whether one of two attachments points sideways, and not towards the other."""
+    if not (start.is_attachment and end.is_attachment):
+        return False
+    ahead = 0.0
+    behind = 0.0
+    for axis in range(2):
+        run = end.place[axis] - start.place[axis]
+        ahead += start.direction[axis] * run
+        behind -= end.direction[axis] * run
+    first = start.direction[2] < UPRIGHT and ahead <= 0.0
+    second = end.direction[2] < UPRIGHT and behind <= 0.0
+    return first or second
 
 
 @njit(cache=True)
@@ -113,7 +133,7 @@ def _lay_arch(start: End, end: End, plane: float, radius: float, curve: Floats) 
 @njit(cache=True)
 def _rise(curve: Floats, up: Floats, ahead: Floats, plane: float, radius: float) -> None:
     """From an attachment that is left along ``up`` to a join in the plane that is met ``ahead``."""
-    if up[2] < 0.7 or plane - curve[0, 2] < radius:
+    if up[2] < UPRIGHT or plane - curve[0, 2] < radius:
         bend_between(curve, up, ahead, BEND * radius)
         return
     run = np.hypot(curve[3, 0] - curve[0, 0], curve[3, 1] - curve[0, 1])
@@ -243,8 +263,7 @@ def _climb(
     if end.lift != end.place[2] or end.foot[0] != low[0] or end.foot[1] != low[1]:
         cubics[0, 0] = end.place
         cubics[0, 3, 0], cubics[0, 3, 1], cubics[0, 3, 2] = end.foot[0], end.foot[1], end.lift
-        up = np.array([0.0, 0.0, 1.0])
-        bend_between(cubics[0], end.direction, up, BEND * radius)
+        _turn_up(cubics[0], end.direction)
         low[:] = cubics[0, 3]
         count = 1
     bend = plane - low[2]
@@ -271,6 +290,20 @@ def _climb(
         cubics[count, 2, axis] = at[axis] - ARC * taken * ahead[axis]
     cubics[count, 3] = at
     return count + 1
+
+
+@njit(cache=True)
+def _turn_up(curve: Floats, direction: Floats) -> None:
+    """The arc from an attachment's direction to upright, between the ends of ``curve``."""
+    turn = np.arccos(min(max(direction[2], -1.0), 1.0))
+    chord = 0.0
+    for axis in range(3):
+        chord += (curve[3, axis] - curve[0, axis]) ** 2
+    handle = 2.0 / 3.0 * np.tan(turn / 4.0) / np.sin(turn / 2.0) * np.sqrt(chord)
+    for axis in range(3):
+        curve[1, axis] = curve[0, axis] + handle * direction[axis]
+        curve[2, axis] = curve[3, axis]
+    curve[2, 2] -= handle
 
 
 @njit(cache=True)

@@ -24,14 +24,38 @@ def least_radius(curve: Floats) -> float:
     It is looked for at `PLACES` + 1 places, then between those beside the tightest.
     """
     largest, tightest = 0.0, 0
+    x = y = z = 0.0
     for i in range(PLACES + 1):
         bend = _squared_bend(curve, i / PLACES)
         if bend > largest:
             largest, tightest = bend, i
+        before_x, before_y, before_z = x, y, z
+        x, y, z = _velocity(curve, i / PLACES)
+        if x * before_x + y * before_y + z * before_z < 0.0:
+            # More than a right angle between two places: it turns on the spot.
+            return 0.0
     for k in range(-CLOSER + 1, CLOSER):
         t = (tightest + k / CLOSER) / PLACES
         largest = max(largest, _squared_bend(curve, min(max(t, 0.0), 1.0)))
     return 1.0 / np.sqrt(largest) if largest > 0.0 else np.inf
+
+
+@njit(cache=True)
+def _velocity(curve: Floats, t: float) -> tuple[float, float, float]:
+    """A third of B' at t."""
+    s = 1.0 - t
+    u, v, w = s * s, 2.0 * s * t, t * t
+    return (
+        u * (curve[1, 0] - curve[0, 0])
+        + v * (curve[2, 0] - curve[1, 0])
+        + w * (curve[3, 0] - curve[2, 0]),
+        u * (curve[1, 1] - curve[0, 1])
+        + v * (curve[2, 1] - curve[1, 1])
+        + w * (curve[3, 1] - curve[2, 1]),
+        u * (curve[1, 2] - curve[0, 2])
+        + v * (curve[2, 2] - curve[1, 2])
+        + w * (curve[3, 2] - curve[2, 2]),
+    )
 
 
 @njit(cache=True)

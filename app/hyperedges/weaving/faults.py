@@ -46,17 +46,13 @@ def find_faults(
     clearance: float,
     surroundings: Surroundings,
     active: NDArray[np.bool_],
-    *,
-    only_items: bool = False,
 ) -> Faults:
     """What is nearer than ``clearance`` among ``segments`` (s, 4, 3) and items.
 
     ``owners`` (s,) are the segments' hyperedges, ``radii`` (s,) their tubes'. Only what has to do
-    with ``active`` (s,) segments is looked at, and items alone if only they are asked for.
+    with ``active`` (s,) segments is looked at.
     """
-    pairs = np.zeros((0, 2), dtype=np.int64)
-    if not only_items:
-        pairs = near_pairs(segments, owners, radii, clearance, active)
+    pairs = near_pairs(segments, owners, radii, clearance, active)
     apart = gaps(segments, radii, pairs, clearance, TOLERANCE)
     obstacles, attached = surroundings.obstacles, surroundings.attached
     beside = near_obstacles(segments, owners, radii, obstacles, attached, clearance, active)

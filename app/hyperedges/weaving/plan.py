@@ -66,7 +66,8 @@ def feet_of(positions: Floats, directions: Floats, radii: Floats) -> tuple[Float
 
     Their tubes have ``radii`` (a,). Those that leave straight up are there at once.
     """
-    turns = BEND * radii
+    # The farther an arc of one cubic turns, the tighter it is at its tightest.
+    turns = BEND * radii * (1.0 + 0.06 * (1.0 - directions[:, 2]))
     flat = directions[:, :2]
     length = np.linalg.norm(flat, axis=1)
     # Whoever leaves straight down turns towards the viewer.

@@ -106,7 +106,7 @@ def _choose(
         along_y = 3.0 * headings[arm, 1] - headings[:, 1].sum()
         length = np.hypot(along_x, along_y)
         if length < 1e-9:
-            continue
+            along_x, along_y, length = headings[arm, 0], headings[arm, 1], 1.0
         for turn in range(-STEPS, STEPS + 1):
             cosine, sine = np.cos(turn * STEP) / length, np.sin(turn * STEP) / length
             x, y = along_x * cosine - along_y * sine, along_x * sine + along_y * cosine
