@@ -10,6 +10,7 @@ import pytest
 
 from app.notations.loader import load_notation
 from app.output.gltf import write_glb
+from app.output.gltf_packing import Packing
 from app.placement.placement import Placement
 from app.program.model import Attachment, Hyperedge, Item, Program
 from app.scene.assemble import assemble
@@ -104,7 +105,9 @@ def test_glb_tubeloom(benchmark: Any, scene_and_rounds: tuple[Scene, int]) -> No
     """Ours."""
     scene, rounds = scene_and_rounds
     benchmark.group = f"GLB of {3 * len(scene.nodes) - 9:,} segments"
-    data = benchmark.pedantic(write_glb, (scene,), rounds=rounds, warmup_rounds=1)
+    data = benchmark.pedantic(
+        write_glb, (scene, Packing(merge=False)), rounds=rounds, warmup_rounds=1
+    )
     assert struct.unpack("<I", data[8:12])[0] == len(data)
 
 

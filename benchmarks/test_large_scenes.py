@@ -46,9 +46,10 @@ def document(hyperedges: int) -> bytes:
     middles = chance.integers(0, items, hyperedges)
     steps = chance.integers(-REACH, REACH + 1, (hyperedges, 8, 2))
     x = np.clip(middles[:, None] % side + steps[..., 0], 0, side - 1)
-    y = np.clip(middles[:, None] // side + steps[..., 1], 0, side - 1)
+    y = np.clip(middles[:, None] // side + steps[..., 1], 0, (items - 1) // side)
     near = np.minimum(y * side + x, items - 1)
-    ends = [list(dict.fromkeys(found))[:3] for found in near.tolist()]
+    # Should those be fewer than three, the first items help out.
+    ends = [list(dict.fromkeys([*found, 0, 1, 2]))[:3] for found in near.tolist()]
     program = {
         "items": [
             {"id": f"i{number}", "position": [3.0 * (number % side), 3.0 * (number // side), 0.5]}
@@ -57,7 +58,6 @@ def document(hyperedges: int) -> bytes:
         "hyperedges": [
             {"id": f"e{number}", "attachments": [{"item": f"i{end}"} for end in found]}
             for number, found in enumerate(ends)
-            if len(found) == 3
         ],
         "layout": {"clearance": None, "curves": "prose"},
     }
