@@ -16,6 +16,7 @@ from app.formats.registry import FORMATS
 from app.notations.loader import load_notation, notation_names
 from app.notations.notation import Notation
 from app.output.media import SceneFormat
+from app.program.model import Finish
 from app.scene.materials import SURFACES
 from app.scene.palette import palettes as all_palettes
 
@@ -40,8 +41,15 @@ class MaterialEntry(Entry):
 
     description: str
     metallic: float
-    roughness: float
+    roughness: dict[Finish, float]
+    usual_finish: Finish
     opacity: float
+    transmission: float
+    ior: float
+    clearcoat: float
+    texture: str | None
+    natural_color: str | None
+    is_lit: bool
 
 
 class PaletteEntry(Entry):

@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from app.program.base import Color, Part
-from app.program.model import MaterialName
+from app.program.model import Finish, MaterialName, Share
 from app.program.shapes import Length, Shape
 
 
@@ -18,6 +18,8 @@ class ItemStyle(Part):
         None, description="Left out: a tray where the item has children, else a box."
     )
     material: MaterialName = "matte"
+    finish: Finish | None = None
+    translucency: Share | None = None
     color: Color = "#c9d3df"
     label_color: Color = "#1f2933"
     label_height: Length = Field(0.3, description="Of a capital letter.")
@@ -35,6 +37,8 @@ class HyperedgeStyle(Part):
     """How a hyperedge of one kind looks."""
 
     material: MaterialName = "plastic"
+    finish: Finish | None = None
+    translucency: Share | None = None
     color: Color | None = Field(None, description="Left out: each its own, from the palette.")
     radius: Length = 0.08
 

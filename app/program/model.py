@@ -10,7 +10,11 @@ from app.program.base import Color, Data, Id, Label, Many, Part, Tallied, Vector
 from app.program.shapes import Length, Shape
 
 Degrees = Annotated[float, Field(ge=-360_000, le=360_000, allow_inf_nan=False)]
-MaterialName = Literal["plastic", "metal", "glass", "matte"]
+Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
+MaterialName = Literal["plastic", "metal", "glass", "wood", "stone", "matte", "plain"]
+Finish = Literal["shiny", "satin", "matte"]
+
+TRANSLUCENCY = "Share of light that passes; left out, the material's own."
 
 
 class AttachmentPoint(Part):
@@ -36,6 +40,8 @@ class Item(Part):
         None, description="Degrees about x, then y, then z, relative to the parent."
     )
     material: MaterialName | None = None
+    finish: Finish | None = None
+    translucency: Share | None = Field(None, description=TRANSLUCENCY)
     color: Color | None = None
     attachment_points: Many[AttachmentPoint] = ()
     data: Data = Field(
@@ -67,6 +73,8 @@ class Hyperedge(Part):
         description="World z of the join plane; left out, Tubeloom chooses.",
     )
     material: MaterialName | None = None
+    finish: Finish | None = None
+    translucency: Share | None = Field(None, description=TRANSLUCENCY)
     data: Data = Field(default_factory=dict)
 
 
@@ -79,6 +87,10 @@ class LineUp(Part):
 
 class Layout(Part):
     """How places and curves are found."""
+
+    dimensions: Literal[2, 3] = Field(
+        3, description="2: a flat drawing, seen from above, whose lines may cross."
+    )
 
     curves: Literal["steiner", "prose", "symbolic"] | None = Field(
         None,
@@ -116,6 +128,17 @@ class Style(Part):
     background: Color | Literal["transparent"] = "#ffffff"
     labels: bool = True
     ground: bool = True
+    halo: float = Field(
+        0.3,
+        ge=0,
+        le=3,
+        allow_inf_nan=False,
+        description="Gap in what a tube passes in front of, in radii of the tube; 0: none. Of "
+        "drafts and drawings.",
+    )
+    hidden_lines: Literal["removed", "dashed"] = Field(
+        "removed", description="In drawings: what becomes of lines behind something."
+    )
 
 
 class View(Part):
@@ -130,6 +153,18 @@ class View(Part):
     )
     margin: float = Field(
         0.05, ge=0, le=0.45, allow_inf_nan=False, description="Free share of the picture's edge."
+    )
+    stereo: Literal["side-by-side", "anaglyph"] | None = Field(
+        None,
+        description="Two eyes: beside each other (left eye left), or as red and cyan in one.",
+    )
+    eye_distance: float | None = Field(
+        None,
+        ge=0,
+        le=0.2,
+        allow_inf_nan=False,
+        description="Between the eyes, as a share of the distance to the scene; left out, what "
+        "suits the scene's depth.",
     )
 
 

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from app.arrays import Floats
-from app.notations.notation import Notation
-from app.program.model import Hyperedge, MaterialName, Program
+from app.notations.notation import HyperedgeStyle, Notation
+from app.program.model import Hyperedge, Program
 from app.scene.boxes import around_their_middles
 from app.scene.color import linear_of, srgb_of
 from app.scene.curve_reach import curve_boxes
-from app.scene.materials import in_white, make_material, make_materials
+from app.scene.materials import Look, in_white, make_material, make_materials
 from app.scene.palette import colors
 from app.scene.scene import Crowd, Material, Node, Primitive
 from app.solids.mesh import Mesh
@@ -77,9 +77,9 @@ def crowd_of(
     program: Program, notation: Notation, tubes: UnsweptTubes, background: Floats | None
 ) -> Crowd:
     """All hyperedges without nodes, in the order of the document; else as `hyperedge_nodes`."""
-    names, chosen = _styles(program, notation, background)
-    known: dict[MaterialName, int] = {}
-    surfaces = np.array([known.setdefault(name, len(known)) for name in names], dtype=np.int64)
+    looks, chosen = _styles(program, notation, background)
+    known: dict[Look, int] = {}
+    surfaces = np.array([known.setdefault(look, len(known)) for look in looks], dtype=np.int64)
     return Crowd(
         swept=tubes.swept,
         vertex_counts=tubes.vertex_counts,
@@ -87,7 +87,7 @@ def crowd_of(
         radii=tubes.routing.radii,
         colors=linear_of(chosen),
         surfaces=surfaces,
-        materials=tuple(in_white(make_material(name, "#fff")) for name in known),
+        materials=tuple(in_white(make_material(look, "#fff")) for look in known),
         extras=lambda number: _extras(program.hyperedges[number]),
     )
 
@@ -98,21 +98,32 @@ def _materials(program: Program, notation: Notation, background: Floats | None) 
 
 def _styles(
     program: Program, notation: Notation, background: Floats | None
-) -> tuple[list[MaterialName], Floats]:
-    """Names of materials (h,) and sRGB colours (h, 3): its own, or its kind's, or the palette's.
+) -> tuple[list[Look], Floats]:
+    """Looks (h,) and sRGB colours (h, 3): its own, or its kind's, or the palette's.
 
     Every hyperedge takes one from the palette, whether it shows it or not: so a colour given to
     one does not change the others'.
     """
     chosen = colors(program.style.palette, len(program.hyperedges), background)
-    names: list[MaterialName] = []
+    looks: list[Look] = []
     for number, hyperedge in enumerate(program.hyperedges):
         style = notation.hyperedge_style(hyperedge.kind)
-        names.append(hyperedge.material or style.material)
+        looks.append(_look(hyperedge, style))
         given = hyperedge.color or style.color
         if given is not None:
             chosen[number] = srgb_of(given)
-    return names, chosen
+    return looks, chosen
+
+
+def _look(hyperedge: Hyperedge, style: HyperedgeStyle) -> Look:
+    if hyperedge.material is not None:
+        return Look(hyperedge.material, hyperedge.finish, hyperedge.translucency)
+    translucency = hyperedge.translucency
+    return Look(
+        style.material,
+        hyperedge.finish or style.finish,
+        style.translucency if translucency is None else translucency,
+    )
 
 
 def _extras(hyperedge: Hyperedge) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from app.placement.placement import LabelPlace, Placement
 from app.placement.turning import matrices
 from app.program.model import Item, Program
 from app.scene.color import difference, srgb_of
-from app.scene.materials import make_material
+from app.scene.materials import SURFACES, Look, make_material
 from app.scene.palette import VANISHING
 from app.scene.scene import Material, Node, Primitive
 from app.solids.mesh import Mesh
@@ -42,7 +42,7 @@ def item_nodes(
         body = bodies.get(solid)
         if body is None:
             body = bodies[solid] = mesh_of(solid)
-        parts = [(body, make_material(item.material or style.material, item.color or style.color))]
+        parts = [(body, _material(item, style))]
         if place is not None and program.style.labels:
             label = labels.get(place)
             if label is None:
@@ -63,6 +63,24 @@ def item_nodes(
             )
         )
     return nodes
+
+
+def _material(item: Item, style: ItemStyle) -> Material:
+    """As the document says; what it leaves out, as its kind's style, or the material itself."""
+    if item.material is None:
+        look = Look(
+            style.material,
+            item.finish or style.finish,
+            _first(item.translucency, style.translucency),
+        )
+        return make_material(look, item.color or style.color)
+    look = Look(item.material, item.finish, item.translucency)
+    natural = SURFACES[item.material].natural_color
+    return make_material(look, item.color or natural or style.color)
+
+
+def _first(*values: float | None) -> float | None:
+    return next((value for value in values if value is not None), None)
 
 
 @lru_cache(maxsize=512)

@@ -4,24 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 from app.arrays import Floats, Indices
+from app.program.model import MaterialName
 from app.solids.mesh import Mesh
 from app.tubes.tubes import Tubes
+
+TextureName: TypeAlias = Literal["wood", "stone"]
 
 
 @dataclass(frozen=True, slots=True)
 class Material:
     """How a surface answers to light: the metallic-roughness model of glTF 2.0.
 
-    ``base_color`` is linear RGB and opacity, 0 to 1.
+    ``base_color`` is linear RGB, and the opacity that it has where nothing can be refracted;
+    ``transmission`` is the share of light that passes where something can (with ``ior``, the index
+    of refraction). A ``texture`` is multiplied by the colour; its mean is white. A surface that is
+    not lit shows its colour as it is.
     """
 
     name: str
     base_color: tuple[float, float, float, float]
     metallic: float
     roughness: float
+    surface: MaterialName = "plastic"
+    transmission: float = 0.0
+    ior: float = 1.5
+    clearcoat: float = 0.0
+    clearcoat_roughness: float = 0.0
+    texture: TextureName | None = None
+    is_lit: bool = True
 
     def __hash__(self) -> int:
         """Of the name alone, which says all the rest: each of very many hyperedges has its own."""

@@ -14,12 +14,14 @@ class Mesh:
     """Triangles.
 
     ``vertices`` (v, 3) and unit ``normals`` (v, 3) are float32, ``faces`` (f, 3) uint32 with
-    corners counter-clockwise seen from outside.
+    corners counter-clockwise seen from outside. ``coordinates`` (v, 2) float32 are places in a
+    texture that repeats with every whole number, where the surface has one.
     """
 
     vertices: Singles
     normals: Singles
     faces: Faces
+    coordinates: Singles | None = None
 
     @property
     def bounds(self) -> Floats:
