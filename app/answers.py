@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
 
-from app.output.media import Compression, Parts, SceneFormat
+from app.output.effort import Effort
+from app.output.media import Compression, Motion, Parts, Quality, SceneFormat
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,17 +17,28 @@ class RenderOptions:
     ``source`` is the format of the document. The size also gives a glTF camera its aspect. A print
     shows ``parts`` of the scene, ``scale`` millimetres to a unit of the document. glTF is written
     with ``compress``, and with hyperedges merged or not (``None``: if there are very many).
+
+    Pictures are drawn in ``quality``, a final one with ``effort``. What moves has ``frames`` in
+    ``seconds``, and a glTF scene moves if there is a ``motion``. A ``sheet`` shows the scene from
+    several sides; a ``sweep``, over one or two axes such as ``/style/halo=0,0.3``, shows variations
+    of the document beside each other.
     """
 
     format: SceneFormat = SceneFormat.GLB
     width: int = 1024
     height: int = 768
-    quality: Literal["draft"] = "draft"
+    quality: Quality = "draft"
     source: str = "tubeloom"
     scale: float = 10.0
     parts: Parts = "all"
     compress: Compression = "none"
     merge: bool | None = None
+    effort: Effort = field(default_factory=Effort)
+    motion: Motion | None = None
+    frames: int = 36
+    seconds: float = 3.0
+    sheet: bool = False
+    sweep: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +59,21 @@ class ConvertOptions:
 
 Options: TypeAlias = RenderOptions | LayoutOptions | ConvertOptions
 
+
+def is_slow(options: Options) -> bool:
+    """Whether an answer takes seconds, however small the document.
+
+    >>> is_slow(RenderOptions(SceneFormat.PNG)), is_slow(RenderOptions(SceneFormat.MP4))
+    (False, True)
+    """
+    return isinstance(options, RenderOptions) and (
+        options.format.is_animated
+        or options.sheet
+        or bool(options.sweep)
+        or (options.quality == "final" and options.format is SceneFormat.PNG)
+    )
+
+
 ANYTHING = "*"
 """Among known validators: the asker has an answer, whichever it is."""
 
@@ -54,13 +82,15 @@ ANYTHING = "*"
 class Answer:
     """Bytes, what they are, and a strong validator that changes whenever they would.
 
-    ``name`` is the document's own, for a file name.
+    There is no validator where the same question may get another answer. ``name`` is the document's
+    own, for a file name; ``notes`` tell how the answer came about.
     """
 
     body: bytes
     media_type: str
-    etag: str
+    etag: str | None
     name: str | None = None
+    notes: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

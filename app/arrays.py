@@ -16,3 +16,5 @@ Indices: TypeAlias = NDArray[np.int64]
 
 Faces: TypeAlias = NDArray[np.uint32]
 """Triangles as three vertex numbers each, counter-clockwise seen from outside."""
+
+Flags: TypeAlias = NDArray[np.bool_]

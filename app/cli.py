@@ -2,29 +2,30 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO, get_args
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import click
 
 from app import __version__
 from app.answers import Answer, ConvertOptions, LayoutOptions, Options, RenderOptions
+from app.cli_options import of_gltf, of_motion, of_pictures, of_prints
 from app.errors import DocumentError, TubeloomError
 from app.formats.registry import FORMATS
-from app.output.media import Compression, Parts, SceneFormat
+from app.output.media import SceneFormat
 from app.settings import Settings
 
 if TYPE_CHECKING:
     from app.layout import Progress
+    from app.output.effort import Effort
 
 READABLE = click.Choice(list(FORMATS))
 WRITABLE = click.Choice([name for name, found in FORMATS.items() if found.writes])
 SCENE = click.Choice([scene.value for scene in SceneFormat])
-PARTS = click.Choice(get_args(Parts))
-COMPRESSIONS = click.Choice(get_args(Compression))
 
 document = click.argument("document", type=click.File("rb"), metavar="FILE")
 source = click.option(
@@ -81,63 +82,34 @@ def serve(host: str | None, port: int | None, workers: int | None) -> None:
 @click.option("--format", "format_", type=SCENE, help="Left out, the ending of the output tells.")
 @click.option("--width", type=click.IntRange(1, 8192), default=1024, show_default=True)
 @click.option("--height", type=click.IntRange(1, 8192), default=768, show_default=True)
-@click.option(
-    "--scale",
-    type=click.FloatRange(0.001, 1000),
-    default=10.0,
-    show_default=True,
-    help="Of a print: millimetres to a unit.",
-)
-@click.option(
-    "--parts",
-    type=PARTS,
-    default="all",
-    show_default=True,
-    help="Of a print: what of the scene it holds.",
-)
-@click.option(
-    "--compress",
-    type=COMPRESSIONS,
-    default="none",
-    show_default=True,
-    help="Of glTF: by whole numbers, or by those and meshoptimizer's codecs.",
-)
-@click.option(
-    "--merge/--no-merge",
-    default=None,
-    help="Of glTF: draw many hyperedges at once; left out, above 1,000 of them.",
-)
+@of_pictures
+@of_motion
+@of_gltf
+@of_prints
 def render(
     *,
     document: BinaryIO,
     output: Path,
     source: str,
     format_: str | None,
-    width: int,
-    height: int,
-    scale: float,
-    parts: Parts,
-    compress: Compression,
-    merge: bool | None,
+    effort: Effort,
+    **wishes: Any,
 ) -> None:
-    """Show FILE as a glTF scene or a PNG picture, or make a print of it."""
+    """Show FILE as a glTF scene, a picture or a film, or make a print of it."""
     ending = format_ or output.suffix.removeprefix(".").lower()
     if ending not in SCENE.choices:
         raise click.UsageError(
             f"Say the format by --format, or by an output that ends in one of "
             f"{', '.join(f'.{choice}' for choice in SCENE.choices)}."
         )
-    options = RenderOptions(
-        SceneFormat(ending),
-        width,
-        height,
-        source=source,
-        scale=scale,
-        parts=parts,
-        compress=compress,
-        merge=merge,
-    )
-    _write(output, _answer(document, options))
+    options = RenderOptions(SceneFormat(ending), source=source, effort=effort, **wishes)
+    if (options.sheet or options.sweep) and options.format is not SceneFormat.PNG:
+        raise click.UsageError("Sheets and sweeps are pictures: png.")
+    answer = _answer(document, options)
+    _write(output, answer)
+    if answer.notes:
+        said = ", ".join(f"{name.lower()}: {note}" for name, note in answer.notes.items())
+        click.echo(said, err=True)
 
 
 @main.command()
@@ -175,7 +147,9 @@ def _answer(document: BinaryIO, options: Options) -> Answer:
 
     try:
         with _progress_bar() as progress:
-            answer = pipeline.answer(document.read(), options, Settings(), progress=progress)
+            # Who sits before it is the deadline.
+            settings = Settings().model_copy(update={"deadline_seconds": math.inf})
+            answer = pipeline.answer(document.read(), options, settings, progress=progress)
     except DocumentError as error:
         for fault in error.faults:
             click.echo(f"{document.name}: {fault.pointer or '/'}: {fault.detail}", err=True)

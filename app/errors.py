@@ -8,7 +8,8 @@
     │   ├── InvalidDocument         it is JSON, but does not follow the schema
     │   ├── InconsistentDocument    it follows the schema, but contradicts itself
     │   ├── DocumentTooLarge        it has more of something than the limits allow
-    │   └── Unprintable             something in it has no closed body
+    │   ├── Unprintable             something in it has no closed body
+    │   └── InvalidSweep            a parameter to be varied is not in it, or not to be read
     ├── UnknownName                 a format, notation, palette or material that does not exist
     ├── PictureTooLarge             more pixels than the limits allow
     ├── RendererUnavailable         no way to draw on this machine; says what to install
@@ -75,6 +76,10 @@ class DocumentTooLarge(DocumentError):
 
 class Unprintable(DocumentError):
     """Something in the document has no closed body that could be printed."""
+
+
+class InvalidSweep(DocumentError):
+    """A sweep that cannot be read, or that names a place that the document does not have."""
 
 
 class UnknownName(TubeloomError):

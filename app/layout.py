@@ -26,6 +26,9 @@ Progress = Callable[[str, float], None]
 It may raise to end the work.
 """
 
+Preview = Callable[[bytes], None]
+"""Shown a picture that is not finished, as PNG."""
+
 
 def silent(_stage: str, _share: float) -> None:
     """Progress that nobody listens to."""

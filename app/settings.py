@@ -39,7 +39,14 @@ class Settings(BaseSettings):
     max_label_characters: int = Field(
         100_000, ge=1, description="Over all labels that are drawn together."
     )
+    max_csg_nodes: int = Field(
+        1_000, ge=1, description="Over all trees of constructive solid geometry together."
+    )
+    max_csg_depth: int = Field(64, ge=1, le=90, description="Of one such tree.")
     max_pixels: int = Field(4096 * 4096, ge=1)
+    max_film_pixels: int = Field(
+        400_000_000, ge=1, description="Over all frames of an animation together."
+    )
     max_print_triangles: int = Field(
         2_000_000, ge=1, description="Of what a print is made from, before tubes are united."
     )

@@ -22,9 +22,10 @@ from app.answers import Answer, RenderOptions
 from app.output.gltf import write_glb
 from app.output.gltf_packing import Packing
 from app.output.media import Compression
-from app.pipeline import make_scene, render
+from app.pipeline import render
 from app.program.model import Program
 from app.settings import Settings
+from app.staging import make_scene
 from benchmarks.test_gltf import trimesh_scene
 
 GLTFPACK = Path(__file__).parent / "node" / "node_modules" / "gltfpack" / "cli.js"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +11,11 @@ import pytest
 from app.formats import registry
 from app.hyperedges.route import route
 from app.hyperedges.routing import Routing
-from app.layout import silent
 from app.output.shells import triangles_of
 from app.output.stl import write_stl
 from app.output.threemf import write_3mf
-from app.pipeline import make_bodies, make_scene
 from app.settings import Settings
+from app.staging import bodies_for_print, make_scene
 from app.tubes.sweep import sweep
 from app.tubes.tubes import Tubes
 from app.tubes.unions import TubePlan, plan_unions, unite
@@ -106,12 +104,11 @@ def test_print_a_program(benchmark: Any, name: str, form: str) -> None:
     """Read, placed, laid out, united, written."""
     benchmark.group = f"{name}.json to {form}"
     data = (EXAMPLES / f"{name}.json").read_bytes()
-    bodies = partial(make_bodies, most=10**9, progress=silent)
     write = write_stl if form == "stl" else write_3mf
 
     def make() -> bytes:
         program = registry.read(PROGRAMS[name], data, Settings())
-        scene = make_scene(program, 4 / 3, tubes_of=bodies)
+        scene = make_scene(program, 4 / 3, sweeping=bodies_for_print(10**9))
         benchmark.extra_info["hyperedges"] = len(program.hyperedges)
         benchmark.extra_info["triangles"] = f"{triangles_of(scene, 'all'):,}"
         return write(scene)

@@ -49,6 +49,30 @@ def choose(accept: str | None, offers: Mapping[str, Format]) -> Format:
     return offers[best]
 
 
+def names(media_type: str, accept: str | None) -> bool:
+    """Whether ``accept`` asks for ``media_type`` by its name.
+
+    >>> names("text/event-stream", "text/event-stream, image/png"), names("image/png", "*/*")
+    (True, False)
+    """
+    return any(
+        found.closeness(media_type) == 3 and found.quality > 0
+        for found in parse_accept(accept or "")
+    )
+
+
+def without(media_type: str, accept: str | None) -> str | None:
+    """What else ``accept`` asks for.
+
+    >>> without("text/event-stream", "text/event-stream, image/png")
+    ' image/png'
+    """
+    if accept is None:
+        return None
+    others = [part for part in accept.split(",") if media_type_of(part) != media_type]
+    return ",".join(others) or None
+
+
 def parse_accept(accept: str) -> tuple[Range, ...]:
     """The ranges of an ``Accept`` header; what does not parse is left out."""
     return tuple(found for part in accept.split(",") if (found := _parse_range(part)) is not None)

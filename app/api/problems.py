@@ -17,12 +17,14 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
+from app.api.problem_pictures import problem_picture
 from app.errors import (
     DeadlineExceeded,
     DocumentError,
     DocumentTooLarge,
     InconsistentDocument,
     InvalidDocument,
+    InvalidSweep,
     Overloaded,
     PictureTooLarge,
     RendererUnavailable,
@@ -45,6 +47,10 @@ class RefusalError(Exception):
 
 class NotAcceptableError(RefusalError):
     """Nothing that there is fits what the client accepts."""
+
+
+class ContradictionError(RefusalError):
+    """Query parameters that make no sense together."""
 
 
 class UnsupportedMediaTypeError(RefusalError):
@@ -75,6 +81,7 @@ KINDS: Mapping[type[Exception], Kind] = {
     InconsistentDocument: Kind(422, "inconsistent-document", "The document contradicts itself."),
     DocumentTooLarge: Kind(413, "document-too-large", "The document exceeds a limit."),
     Unprintable: Kind(422, "unprintable", "Something in the document cannot be printed."),
+    InvalidSweep: Kind(422, "invalid-sweep", "The document cannot be varied like this."),
     UnknownName: Kind(422, "unknown-name", "The document names something that does not exist."),
     PictureTooLarge: Kind(422, "picture-too-large", "The picture would have too many pixels."),
     RendererUnavailable: Kind(503, "renderer-unavailable", "This machine cannot draw."),
@@ -84,6 +91,7 @@ KINDS: Mapping[type[Exception], Kind] = {
     RequestValidationError: Kind(400, "invalid-parameter", "A query parameter is wrong."),
     NotAcceptableError: Kind(406, "not-acceptable", "No format fits what is accepted."),
     UnsupportedMediaTypeError: Kind(415, "unsupported-media-type", "The body is not plain JSON."),
+    ContradictionError: Kind(422, "contradiction", "The query contradicts itself."),
     BodyTooLargeError: Kind(413, "body-too-large", "The body has too many bytes."),
 }
 
@@ -91,7 +99,18 @@ UNEXPECTED = Kind(500, "unexpected-error", "Something went wrong that should not
 
 
 def problem_response(request: Request, error: Exception) -> Response:
-    """The problem that ``error`` is to a client. Nothing of our insides shows in it."""
+    """The problem that ``error`` is to a client, in JSON or as the picture that it asked for."""
+    details = problem_of(request, error)
+    body, media_type = json.dumps(details, ensure_ascii=False).encode(), MEDIA_TYPE
+    if request.query_params.get("errors") == "image":
+        body, media_type = problem_picture(details, request.query_params)
+    return Response(
+        body, status_code=details["status"], media_type=media_type, headers=_headers(error)
+    )
+
+
+def problem_of(request: Request, error: Exception) -> dict[str, Any]:
+    """What is wrong, for a client to read. Nothing of our insides shows in it."""
     kind = _kind_of(error)
     details: dict[str, Any] = {
         "type": kind.type,
@@ -103,12 +122,7 @@ def problem_response(request: Request, error: Exception) -> Response:
         details["instance"] = f"urn:tubeloom:request:{request.state.request_id}"
     if errors := _errors(error):
         details["errors"] = errors
-    return Response(
-        json.dumps(details, ensure_ascii=False),
-        status_code=kind.status,
-        media_type=MEDIA_TYPE,
-        headers=_headers(error),
-    )
+    return details
 
 
 async def answer_problem(request: Request, error: Exception) -> Response:

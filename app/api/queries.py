@@ -9,7 +9,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetCoreSchem
 from pydantic_core import PydanticCustomError, core_schema
 
 from app.formats.registry import FORMATS
-from app.output.media import Compression, Parts, SceneFormat
+from app.output.media import Compression, Motion, Parts, Quality, SceneFormat
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +33,7 @@ def _true_or_false(value: object) -> bool:
 Readable = Annotated[str, OneOf(tuple(FORMATS))]
 Writable = Annotated[str, OneOf(tuple(name for name, found in FORMATS.items() if found.writes))]
 Flag = Annotated[bool, BeforeValidator(_true_or_false)]
+Seconds = Annotated[float, Field(ge=0.05, le=3600, allow_inf_nan=False)]
 Pixels = Annotated[int, Field(ge=1, le=8192)]
 
 
@@ -58,7 +59,44 @@ class RenderQuery(Query):
         1024, description="Of the picture, in pixels; with the height, the aspect of the camera."
     )
     height: Pixels = Field(768, description="Of the picture, in pixels.")
-    quality: Literal["draft"] = Field("draft", description="How a picture is drawn.")
+    quality: Quality = Field(
+        "draft",
+        description="How a picture is drawn: `draft` at once, `final` path traced, in seconds.",
+    )
+    samples: int | None = Field(
+        None, ge=1, le=65536, description="Of a final picture, for each pixel."
+    )
+    time_limit: Seconds | None = Field(
+        None,
+        description="Of final pictures, in seconds: then the best so far is the answer, and the "
+        "header `Tubeloom-Stopped-By` says so.",
+    )
+    noise: float | None = Field(
+        None,
+        gt=0,
+        le=1,
+        allow_inf_nan=False,
+        description="Of a final picture: the standard error that is good enough, white being 1.",
+    )
+    denoise: Flag = Field(True, description="Of a final picture: whether noise is smoothed.")
+    seed: int = Field(0, ge=0, lt=2**31, description="Of the noise of a final picture.")
+    motion: Motion | None = Field(
+        None, description="How `webp` and `mp4` move (left out: turntable), and glTF, if it does."
+    )
+    frames: int = Field(36, ge=2, le=1000, description="Of `webp` and `mp4`.")
+    duration: Seconds = Field(3.0, description="Of what moves, in seconds.")
+    sheet: Flag = Field(False, description="As `png`: the scene from several sides.")
+    sweep: Annotated[
+        list[Annotated[str, Field(max_length=1000)]],
+        Field(
+            max_length=2,
+            description="As `png`: variations of the document beside each other, over one or two "
+            "axes: a JSON pointer and its values, such as `/style/halo=0,0.3,0.6`.",
+        ),
+    ] = []
+    errors: Literal["json", "image"] = Field(
+        "json", description="Whether problems come as JSON, or as a picture for pages that embed."
+    )
     scale: float = Field(
         10.0,
         ge=0.001,

@@ -15,6 +15,9 @@ from app.answers import Answer
 from app.api.conditions import entity_tag
 from app.jobs.executor import Finished
 
+NOTES = "Tubeloom"
+"""Begins the names of headers that tell how an answer came about."""
+
 COMMON_HEADERS = {"Vary": "Accept", "Cache-Control": "no-cache"}
 """Whoever keeps an answer must ask whether it is still right, which its validator makes cheap."""
 
@@ -41,16 +44,22 @@ class PiecesResponse(Response):
 
 def response_of(finished: Finished, ending: str) -> Response:
     """The answer with its headers, or 304 where the client has it. ``ending`` is of the file."""
-    answer = finished.answer
-    headers = {
-        **COMMON_HEADERS,
-        "ETag": entity_tag(answer.etag),
-        "Server-Timing": server_timing(finished),
-    }
-    if not isinstance(answer, Answer):
+    headers = headers_of(finished, ending)
+    if not isinstance(finished.answer, Answer):
         return Response(status_code=304, headers=headers)
-    headers["Content-Disposition"] = content_disposition(answer.name, ending)
-    return PiecesResponse(finished.pieces, answer.media_type, headers)
+    return PiecesResponse(finished.pieces, finished.answer.media_type, headers)
+
+
+def headers_of(finished: Finished, ending: str) -> dict[str, str]:
+    """What is said of an answer beside its media type. ``ending`` is of the file."""
+    answer = finished.answer
+    headers = {**COMMON_HEADERS, "Server-Timing": server_timing(finished)}
+    if answer.etag is not None:
+        headers["ETag"] = entity_tag(answer.etag)
+    if isinstance(answer, Answer):
+        headers["Content-Disposition"] = content_disposition(answer.name, ending)
+        headers.update((f"{NOTES}-{name}", note) for name, note in answer.notes.items())
+    return headers
 
 
 def content_disposition(name: str | None, ending: str) -> str:

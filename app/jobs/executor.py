@@ -13,9 +13,9 @@ from typing import Self
 
 import structlog
 
-from app.answers import Answer, Options, Unchanged
+from app.answers import Answer, Options, Unchanged, is_slow
 from app.errors import DeadlineExceeded, Overloaded, WorkerLost
-from app.jobs.process import WorkerDiedError, WorkerProcess
+from app.jobs.process import Listener, WorkerDiedError, WorkerProcess
 from app.jobs.work import Crash, Reply, Stage, Work
 from app.settings import Settings
 
@@ -24,8 +24,9 @@ log = structlog.get_logger("tubeloom.jobs")
 START_SECONDS = 300.0
 """A worker that is not warm by then is stuck; compiling every kernel anew takes some 30."""
 
-GRACE_SECONDS = 1.0
-"""How long work that nobody waits for may go on: about as long as a new worker takes to start."""
+GRACE_SECONDS = 0.5
+"""How long work that nobody waits for may go on, unless it is known to be slow: new workers take
+longer to start."""
 
 LONGEST_PAUSE_SECONDS = 30.0
 """Between attempts to start workers that die at their start."""
@@ -79,13 +80,18 @@ class WorkerPool:
         await asyncio.gather(*self._slots, return_exceptions=True)
 
     async def answer(
-        self, document: bytes, options: Options, known: frozenset[str] = frozenset()
+        self,
+        document: bytes,
+        options: Options,
+        known: frozenset[str] = frozenset(),
+        listener: Listener | None = None,
     ) -> Finished:
-        """Answer in a worker process.
+        """Answer in a worker process. The ``listener`` hears how the work goes on.
 
         Raises what the pipeline raises, and `Overloaded`, `DeadlineExceeded`, `WorkerLost`. When
         the caller is cancelled, work that goes on for long is stopped.
         """
+        work = Work(options, known, reports=listener is not None)
         clock = asyncio.get_running_loop().time
         waited = 0.0
         for retry in (False, True):
@@ -93,7 +99,7 @@ class WorkerPool:
             worker = await self._take(first=retry)
             waited += clock() - came
             try:
-                reply, pieces = await self._do(worker, Work(options, known), document)
+                reply, pieces = await self._do(worker, work, document, listener)
             except WorkerDiedError:
                 log.warning("worker died at work", pid=worker.pid, retry=not retry)
             else:
@@ -101,13 +107,13 @@ class WorkerPool:
         raise WorkerLost("The process that worked on this document died, and so did a second one.")
 
     async def _do(
-        self, worker: WorkerProcess, work: Work, document: bytes
+        self, worker: WorkerProcess, work: Work, document: bytes, listener: Listener | None
     ) -> tuple[Reply, tuple[bytes, ...]]:
-        future = worker.ask(work, document)
+        future = worker.ask(work, document, listener)
         try:
             await asyncio.wait({future}, timeout=self._settings.deadline_seconds)
         except asyncio.CancelledError:
-            self._abandon(worker, future)
+            self._abandon(worker, future, 0.0 if is_slow(work.options) else GRACE_SECONDS)
             raise
         if not future.done():
             worker.kill()
@@ -121,10 +127,13 @@ class WorkerPool:
         return reply
 
     def _abandon(
-        self, worker: WorkerProcess, future: asyncio.Future[tuple[Reply, tuple[bytes, ...]]]
+        self,
+        worker: WorkerProcess,
+        future: asyncio.Future[tuple[Reply, tuple[bytes, ...]]],
+        grace: float,
     ) -> None:
         """Nobody waits any more: let short work end, which keeps its worker; stop long work."""
-        stop = asyncio.get_running_loop().call_later(GRACE_SECONDS, worker.kill)
+        stop = asyncio.get_running_loop().call_later(grace, worker.kill)
 
         def settle(settled: asyncio.Future[tuple[Reply, tuple[bytes, ...]]]) -> None:
             stop.cancel()

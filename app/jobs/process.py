@@ -7,10 +7,14 @@ import os
 import socket
 import subprocess
 import sys
+from collections.abc import Callable
 
 from app.jobs import channel
-from app.jobs.work import Crash, Ready, Reply, Work
+from app.jobs.work import Crash, Ready, Reply, Report, Work
 from app.settings import Settings
+
+Listener = Callable[[Report, bytes], None]
+"""Told how a work goes on; with a preview, or with no bytes."""
 
 
 class WorkerDiedError(Exception):
@@ -33,6 +37,7 @@ class WorkerProcess:
         self._process, self._reader, self._writer = process, reader, writer
         loop = asyncio.get_running_loop()
         self._expected: asyncio.Future[tuple[object, tuple[bytes, ...]]] | None = None
+        self._listener: Listener | None = None
         self.died: asyncio.Future[None] = loop.create_future()
         self._listening = loop.create_task(self._listen())
 
@@ -68,9 +73,15 @@ class WorkerProcess:
             raise TypeError(f"A worker began with {type(head).__name__}.")
         return head
 
-    def ask(self, work: Work, document: bytes) -> asyncio.Future[tuple[Reply, tuple[bytes, ...]]]:
-        """Hand it a work. The future raises `WorkerDiedError` when it dies over it."""
+    def ask(
+        self, work: Work, document: bytes, listener: Listener | None = None
+    ) -> asyncio.Future[tuple[Reply, tuple[bytes, ...]]]:
+        """Hand it a work. The future raises `WorkerDiedError` when it dies over it.
+
+        The ``listener`` hears the reports that the work asks for.
+        """
         reply = self._next()
+        self._listener = listener
         channel.post(self._writer, work, document)
         return reply
 
@@ -94,9 +105,12 @@ class WorkerProcess:
     async def _listen(self) -> None:
         try:
             while True:
-                message = await channel.listen(self._reader)
-                if self._expected is not None and not self._expected.done():
-                    self._expected.set_result(message)
+                head, pieces = await channel.listen(self._reader)
+                if isinstance(head, Report):
+                    if self._listener is not None:
+                        self._listener(head, b"".join(pieces))
+                elif self._expected is not None and not self._expected.done():
+                    self._expected.set_result((head, pieces))
         except (EOFError, OSError):
             pass
         finally:

@@ -11,10 +11,25 @@ from app.errors import TubeloomError
 
 @dataclass(frozen=True, slots=True)
 class Work:
-    """One call of the pipeline; the document follows as raw bytes."""
+    """One call of the pipeline; the document follows as raw bytes.
+
+    ``reports`` asks for a `Report` now and then before the reply.
+    """
 
     options: Options
     known: frozenset[str] = frozenset()
+    reports: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """How far a work is: what is being done, and the share of the whole that is done, 0 to 1.
+
+    A preview of the picture, as PNG, may follow as raw bytes.
+    """
+
+    stage: str
+    share: float
 
 
 @dataclass(frozen=True, slots=True)

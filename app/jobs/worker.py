@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import gc
 import itertools
+import math
 import os
 import resource
 import select
@@ -17,13 +18,15 @@ import sys
 import threading
 import time
 import traceback
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from app import pipeline
 from app.answers import Answer, RenderOptions
 from app.errors import DocumentTooLarge, Fault, TubeloomError
 from app.jobs import channel
-from app.jobs.work import Crash, Ready, Reply, Stage, Work
+from app.jobs.work import Crash, Ready, Reply, Report, Stage, Work
 from app.output.draft import draft_problem
 from app.settings import Settings
 
@@ -32,6 +35,9 @@ WARM_UP = b"""{
   "hyperedges": [{"id": "e", "attachments": [{"item": "a"}, {"item": "b"}, {"item": "c"}]}]
 }"""
 """A program that takes every kernel through its first call, which loads it."""
+
+REPORT_SECONDS = 0.1
+"""Between two reports: more often nobody can see."""
 
 
 def main() -> None:
@@ -47,22 +53,44 @@ def main() -> None:
         channel.send(end, _prepare(settings))
         while True:
             work, document = channel.receive(end)
-            reply, body = do(work, document, settings)
+            reply, body = do(work, document, settings, partial(channel.send, end))
             channel.send(end, reply, body)
     except (EOFError, OSError):
         return
 
 
-def do(work: Work, document: bytes, settings: Settings) -> tuple[Reply, bytes]:
-    """Answer one work. Whatever goes wrong goes into the reply."""
-    stages: list[tuple[str, float]] = []
+def _unheard(_report: Report, _preview: bytes) -> None:
+    """Where nobody listens."""
 
-    def note(stage: str, _share: float) -> None:
+
+def do(
+    work: Work,
+    document: bytes,
+    settings: Settings,
+    send: Callable[[Report, bytes], None] = _unheard,
+) -> tuple[Reply, bytes]:
+    """Answer one work, and ``send`` reports if it wants them. What goes wrong is in the reply."""
+    stages: list[tuple[str, float]] = []
+    reported = -math.inf
+    share_done = 0.0
+
+    def note(stage: str, share: float) -> None:
+        nonlocal reported, share_done
+        now = time.perf_counter()
+        share_done = share
         if not stages or stages[-1][0] != stage:
-            stages.append((stage, time.perf_counter()))
+            stages.append((stage, now))
+        if work.reports and now >= reported + REPORT_SECONDS:
+            reported = now
+            send(Report(stage, share), b"")
+
+    def show(picture: bytes) -> None:
+        send(Report(stages[-1][0], share_done), picture)
 
     try:
-        outcome = pipeline.answer(document, work.options, settings, work.known, note)
+        outcome = pipeline.answer(
+            document, work.options, settings, work.known, note, show if work.reports else None
+        )
     except TubeloomError as error:
         return Reply(error, _durations(stages)), b""
     except MemoryError:

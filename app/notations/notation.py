@@ -6,9 +6,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from app.program.base import Color, Part
+from app.program.base import Color, Length, Part
 from app.program.model import Finish, MaterialName, Share
-from app.program.shapes import Length, Shape
+from app.program.shapes import Shape
 
 
 class ItemStyle(Part):

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
 import numpy as np
 from PIL import Image
 
@@ -9,14 +12,17 @@ from app.arrays import Floats
 from app.errors import RendererUnavailable
 from app.output.draft_light import lighting
 from app.output.draft_scene import Normalization, draft_scene
-from app.output.draft_view import PLAIN, Pixels, Sampling, frame, sampling, tiling
+from app.output.draft_view import PLAIN, Frame, Pixels, Sampling, Tiling, frame, sampling, tiling
 from app.output.gl_context import with_renderer
 from app.output.gl_platform import draft_problem
 from app.output.png import encode_png
 from app.scene.scene import Camera, Light, Material, Node, Primitive, Scene
 from app.solids.mesh import Mesh
 
-__all__ = ["draft_problem", "draw_draft", "draw_pixel"]
+__all__ = ["draft_problem", "draw_draft", "draw_pixel", "draw_views"]
+
+TOGETHER = 6
+"""Pictures that are drawn at once: some megabytes each."""
 
 
 def draw_draft(scene: Scene, width: int, height: int) -> bytes:
@@ -26,24 +32,46 @@ def draw_draft(scene: Scene, width: int, height: int) -> bytes:
     shadows on it: away from them the background is exact, and there is no rim to be seen.
     Raises `RendererUnavailable` where this machine has no OpenGL.
     """
-    triangles = sum(
-        len(primitive.mesh.faces) for node in scene.nodes for primitive in node.primitives
-    )
-    return encode_png(draw(scene, width, height, sampling(width, height, triangles)))
+    return encode_png(draw(scene, width, height, sampling(width, height, _triangles(scene))))
+
+
+def draw_views(
+    scene: Scene, cameras: Sequence[Camera], width: int, height: int
+) -> Iterator[Image.Image]:
+    """The scene from each of ``cameras``, as `draw_draft` would draw it, in turn.
+
+    The light stays where it is. Several pictures are drawn at once, so that shadows are drawn once
+    for them.
+    """
+    how = sampling(width, height, _triangles(scene))
+    is_clear = any(material.base_color[3] < 1.0 for material in scene.materials)
+    together = 1 if is_clear else TOGETHER
+    for first in range(0, len(cameras), together):
+        yield from _pictures(scene, cameras[first : first + together], width, height, how)
 
 
 def draw(scene: Scene, width: int, height: int, how: Sampling) -> Image.Image:
     """As `draw_draft`, but pixels, and as smooth as ``how`` says."""
-    pixels = _draw(scene, width * how.scale, height * how.scale, how)
-    size = pixels.shape[1], pixels.shape[0]
-    if scene.background is None:
-        # Scaled while colours are multiplied by opacity: else the edges would turn dark.
-        picture = Image.frombytes("RGBa", size, pixels.tobytes())
-    else:
-        picture = Image.frombytes("RGB", size, pixels.tobytes(), "raw", "RGBX")
-    if how.scale > 1:
-        picture = picture.resize((width, height), Image.Resampling.BICUBIC)
-    return picture.convert("RGBA") if scene.background is None else picture
+    return next(_pictures(scene, [scene.camera], width, height, how))
+
+
+def _pictures(
+    scene: Scene, cameras: Sequence[Camera], width: int, height: int, how: Sampling
+) -> Iterator[Image.Image]:
+    for pixels in _draw(scene, cameras, width * how.scale, height * how.scale, how):
+        size = pixels.shape[1], pixels.shape[0]
+        if scene.background is None:
+            # Scaled while colours are multiplied by opacity: else the edges would turn dark.
+            picture = Image.frombytes("RGBa", size, pixels.tobytes())
+        else:
+            picture = Image.frombytes("RGB", size, pixels.tobytes(), "raw", "RGBX")
+        if how.scale > 1:
+            picture = picture.resize((width, height), Image.Resampling.BICUBIC)
+        yield picture.convert("RGBA") if scene.background is None else picture
+
+
+def _triangles(scene: Scene) -> int:
+    return sum(len(primitive.mesh.faces) for node in scene.nodes for primitive in node.primitives)
 
 
 def draw_pixel() -> None:
@@ -56,38 +84,43 @@ def draw_pixel() -> None:
         raise RendererUnavailable("OpenGL starts on this machine, but draws nothing.")
 
 
-def _draw(scene: Scene, width: int, height: int, how: Sampling) -> Pixels:
+def _draw(
+    scene: Scene, cameras: Sequence[Camera], width: int, height: int, how: Sampling
+) -> list[Pixels]:
     background = _clear_color(scene)
     light = lighting(scene.lights)
     normalization = Normalization.of(scene)
-    draft = draft_scene(scene, normalization, light.sun)
-    pixels = np.zeros((height, width, 4), dtype=np.uint8)
+    draft = draft_scene(replace(scene, camera=cameras[0]), normalization, light.sun)
+    pictures = [np.zeros((height, width, 4), dtype=np.uint8) for _ in cameras]
     if draft.bounds is None:
-        pixels[:] = np.round(background * 255)
-        return pixels
-    whole = frame(scene.camera, normalization, draft.corners, width / height)
+        for pixels in pictures:
+            pixels[:] = np.round(background * 255)
+        return pictures
     tiles = tiling(width, height, how.tile_side)
     corners = list(tiles.corners())
-    frames = [
-        whole.window(
-            left / width, top / height, (left + tiles.width) / width, (top + tiles.height) / height
-        )
-        for left, top in corners
-    ]
+    wholes = [frame(camera, normalization, draft.corners, width / height) for camera in cameras]
     drawn = with_renderer(
         lambda renderer: renderer.draw(
             draft,
             light,
             background,
-            frames,
+            [_tile(whole, corner, tiles, width, height) for whole in wholes for corner in corners],
             size=(tiles.width, tiles.height),
             samples=how.samples,
         )
     )
-    for (left, top), tile in zip(corners, drawn, strict=True):
+    places = ((pixels, corner) for pixels in pictures for corner in corners)
+    for (pixels, (left, top)), tile in zip(places, drawn, strict=True):
         place = pixels[top : top + tiles.height, left : left + tiles.width]
         place[:] = tile[: place.shape[0], : place.shape[1]]
-    return pixels
+    return pictures
+
+
+def _tile(whole: Frame, corner: tuple[int, int], tiles: Tiling, width: int, height: int) -> Frame:
+    left, top = corner
+    return whole.window(
+        left / width, top / height, (left + tiles.width) / width, (top + tiles.height) / height
+    )
 
 
 def _clear_color(scene: Scene) -> Floats:

@@ -68,11 +68,12 @@ def frame(camera: Camera, normalization: Normalization, points: Floats, aspect: 
     if camera.vertical_angle is not None:
         far = max(far, 2e-3)
         near = max(near, 1e-3 * far)
-        projection = _perspective(camera.vertical_angle, aspect, near, far)
+        projection = _shift(camera) @ _perspective(camera.vertical_angle, aspect, near, far)
         return Frame(view, projection, np.append(position, 1.0))
     if camera.height is None:
         raise ValueError("A camera has a vertical angle or a height.")
-    projection = _orthographic(camera.height / normalization.size, aspect, near, far)
+    height = camera.height / normalization.size
+    projection = _shift(camera) @ _orthographic(height, aspect, near, far)
     return Frame(view, projection, np.append(back, 0.0))
 
 
@@ -137,6 +138,13 @@ def tiling(width: int, height: int, side: int) -> Tiling:
     """
     columns, rows = -(-width // side), -(-height // side)
     return Tiling(columns, rows, -(-width // columns), -(-height // rows))
+
+
+def _shift(camera: Camera) -> Floats:
+    """Moves the picture against the camera's shift."""
+    moved = np.eye(4)
+    moved[:2, 3] = np.negative(camera.shift)
+    return moved
 
 
 def _perspective(angle: float, aspect: float, near: float, far: float) -> Floats:

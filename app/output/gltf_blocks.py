@@ -53,15 +53,19 @@ def block_of(
 ) -> Block:
     """A block of ``meshes``, each of one triangle or more; equal triangles are stored once.
 
-    With ``steps`` (m,) positions are numbered by 16 bits on grids so wide. Without, they are
-    floats; where these are encoded, rounding moves no vertex by more than ``finest``.
+    Either all have coordinates in a texture, or none has. With ``steps`` (m,) positions are
+    numbered by 16 bits on grids so wide. Without, they are floats; where these are encoded,
+    rounding moves no vertex by more than ``finest``.
     """
     starts = numbers.starts_of([len(mesh.vertices) for mesh in meshes])
     columns = [
         _positions(meshes, starts, compress, finest, steps),
         _normals(meshes, starts, compress),
     ]
-    return _block(("POSITION", "NORMAL"), columns, meshes, compress)
+    if meshes[0].coordinates is None:
+        return _block(("POSITION", "NORMAL"), columns, meshes, compress)
+    columns.append(_coordinates(meshes, starts, compress))
+    return _block(("POSITION", "NORMAL", "TEXCOORD_0"), columns, meshes, compress)
 
 
 def block_of_chunk(chunk: Chunk, compress: Compression, finest: float) -> Block:
@@ -150,6 +154,14 @@ def _normals(meshes: Sequence[Mesh], starts: Indices, compress: Compression) -> 
         return _Column(vertices([numbers.small_normals(normals)], encode=False), texts)
     folded = numbers.folded_normals(normals)
     return _Column(vertices([folded], encode=True, filtered="OCTAHEDRAL"), texts)
+
+
+def _coordinates(meshes: Sequence[Mesh], starts: Indices, compress: Compression) -> _Column:
+    """Places in a texture, as floats: they go beyond 1, where 16 bits would end."""
+    found = [mesh.coordinates for mesh in meshes if mesh.coordinates is not None]
+    pieces = [np.ascontiguousarray(rows, dtype="<f4") for rows in found]
+    encode = compress == "meshopt"
+    return _Column(vertices(pieces, encode=encode), _texts(starts, 8, _FLOAT, b"VEC2"))
 
 
 def _texts(

@@ -14,11 +14,13 @@ import numpy as np
 from pydantic_core import to_json
 
 from app import __version__
+from app.output.gltf_materials import extensions_of, material_text
 from app.output.gltf_packing import Packed, PackedNode, Packing, pack
+from app.output.gltf_textures import MEDIA_TYPE
 from app.output.gltf_views import MESHOPT
 from app.scene.camera import Axes, axes_from
 from app.scene.rotation import quaternion
-from app.scene.scene import Camera, Light, Material, Scene
+from app.scene.scene import Camera, Light, Scene
 
 LIGHTS = "KHR_lights_punctual"
 
@@ -88,7 +90,7 @@ def describe(scene: Scene, packing: Packing) -> Document:
         "nodes": [root, *nodes],
         "cameras": [_camera(scene.camera)],
     }
-    extensions = dict(packed.extensions)
+    extensions = packed.extensions | dict(sorted(shown.extensions.items()))
     if scene.lights:
         extensions[LIGHTS] = False
         document["extensions"] = {LIGHTS: {"lights": [_light(light) for light in scene.lights]}}
@@ -97,10 +99,16 @@ def describe(scene: Scene, packing: Packing) -> Document:
     required = [name for name, is_required in extensions.items() if is_required]
     if required:
         document["extensionsRequired"] = required
+    if packed.textures:
+        document["images"] = [
+            {"name": name, "bufferView": view, "mimeType": MEDIA_TYPE}
+            for name, view in packed.textures.items()
+        ]
+        document["textures"] = [{"source": number} for number in range(len(packed.textures))]
     if packed.buffer.views:
         document["bufferViews"] = packed.buffer.views
     tables = {
-        "materials": list(map(_material, shown.materials)),
+        "materials": shown.materials,
         "meshes": shown.meshes,
         "accessors": packed.accessors,
     }
@@ -111,10 +119,11 @@ class _Shown:
     """Meshes and materials in the order in which nodes first show them, each only once."""
 
     def __init__(self, packed: Packed) -> None:
-        self.materials: list[Material] = []
+        self.materials: list[bytes] = []
         self.meshes: list[bytes] = []
-        self._primitives = packed.primitives
-        self._all = packed.materials
+        self.extensions: dict[str, bool] = {}
+        self._packed = packed
+        self._textures = {name: number for number, name in enumerate(packed.textures)}
         self._material_numbers: dict[int, int] = {}
         self._mesh_numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -138,7 +147,7 @@ class _Shown:
 
     def _mesh(self, parts: tuple[tuple[int, int], ...]) -> bytes:
         primitives = [
-            b'{%b,"material":%d}' % (self._primitives[place], self._material(material))
+            b'{%b,"material":%d}' % (self._packed.primitives[place], self._material(material))
             for place, material in parts
         ]
         return b'{"primitives":[%b]}' % b",".join(primitives)
@@ -146,22 +155,10 @@ class _Shown:
     def _material(self, number: int) -> int:
         found = self._material_numbers.setdefault(number, len(self.materials))
         if found == len(self.materials):
-            self.materials.append(self._all[number])
+            material, depth = self._packed.materials[number], self._packed.depths.get(number)
+            self.materials.append(material_text(material, depth, self._textures))
+            self.extensions |= dict.fromkeys(extensions_of(material, depth), False)
         return found
-
-
-def _material(material: Material) -> bytes:
-    found: dict[str, Any] = {
-        "name": material.name,
-        "pbrMetallicRoughness": {
-            "baseColorFactor": material.base_color,
-            "metallicFactor": material.metallic,
-            "roughnessFactor": material.roughness,
-        },
-    }
-    if material.base_color[3] < 1.0:
-        found["alphaMode"] = "BLEND"
-    return to_json(found)
 
 
 def _light(light: Light) -> dict[str, Any]:

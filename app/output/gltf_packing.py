@@ -14,10 +14,13 @@ import numpy as np
 
 from app.output.gltf_blocks import Block, block_of, block_of_chunk
 from app.output.gltf_chunks import Chunk, chunks_of, crowd_of
+from app.output.gltf_materials import Depth
 from app.output.gltf_numbers import MOST_STEPS, fits, spacing
-from app.output.gltf_views import MESHOPT, Laid, encoded, lay
+from app.output.gltf_surfaces import Surfaces
+from app.output.gltf_textures import texture_file
+from app.output.gltf_views import MESHOPT, Laid, encoded, file, lay
 from app.output.media import Compression
-from app.scene.scene import Material, Node, Scene
+from app.scene.scene import Material, Node, Scene, TextureName
 from app.solids.mesh import Mesh
 
 QUANTIZATION = "KHR_mesh_quantization"
@@ -66,13 +69,16 @@ class PackedNode:
 class Packed:
     """Nodes with what they show. ``primitives`` and ``accessors`` are JSON texts.
 
-    ``materials`` are the scene's, and then those of chunks.
-
-    A primitive's text lacks its braces and its material.
+    ``materials`` are the scene's, then those of chunks, and then those that differ from them by
+    what they are on: ``depths`` of what light goes through, by number of the material.
+    A primitive's text lacks its braces and its material. ``textures`` are the numbers of the views
+    that hold them.
     """
 
     nodes: list[PackedNode]
     materials: list[Material]
+    depths: dict[int, Depth]
+    textures: dict[TextureName, int]
     primitives: list[bytes]
     accessors: list[bytes]
     buffer: Laid
@@ -111,7 +117,20 @@ def pack(scene: Scene, packing: Packing) -> Packed:
         if packing.compress == "meshopt":
             extensions[MESHOPT] = True
     views = [view for block in blocks for view in block.views]
-    return Packed(plan.nodes, plan.materials, primitives, accessors, lay(views), extensions)
+    textures: dict[TextureName, int] = {}
+    for name in _textures(plan):
+        textures[name] = len(views)
+        views.append(file(texture_file(name)))
+    return Packed(
+        plan.nodes,
+        plan.surfaces.materials,
+        plan.surfaces.depths,
+        textures,
+        primitives,
+        accessors,
+        lay(views),
+        extensions,
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -119,7 +138,7 @@ class _Plan:
     """Nodes, and what makes the blocks of their primitives: one for each of the chunks, last."""
 
     nodes: list[PackedNode]
-    materials: list[Material]
+    surfaces: Surfaces
     tasks: list[Callable[[], Block]]
     chunks: list[Chunk]
 
@@ -128,41 +147,54 @@ def _plan(scene: Scene, packing: Packing) -> _Plan:
     drawn = [node for node in scene.nodes if node.shows == "hyperedge" and _is_simple(node)]
     thinnest = min([node.radius for node in drawn if node.radius is not None], default=inf)
     kept, crowd = scene.nodes, scene.crowd
-    if crowd is None and drawn and packing.merges(len(drawn)):
-        crowd = crowd_of(drawn, scene.materials)
-        merged = set(map(id, drawn))
+    bare = [node for node in drawn if _is_bare(node)]
+    if crowd is None and bare and packing.merges(len(drawn)):
+        crowd = crowd_of(bare, scene.materials)
+        merged = set(map(id, bare))
         kept = tuple([node for node in kept if id(node) not in merged])
     if crowd is not None:
         thinnest = min(thinnest, float(np.nanmin(crowd.radii, initial=inf)))
     finest = spacing(thinnest)
     meshes = _meshes(kept)
     steps = {} if packing.compress == "none" else _steps(kept)
-    floating = [key for key in meshes if key not in steps]
-    gridded = [key for key in meshes if key in steps]
+    alike: dict[tuple[bool, bool], list[int]] = {}
+    for key, mesh in meshes.items():
+        alike.setdefault((mesh.coordinates is not None, key in steps), []).append(key)
     tasks: list[Callable[[], Block]] = []
-    if floating:
-        found = [meshes[key] for key in floating]
-        tasks.append(partial(block_of, found, packing.compress, finest))
-    if gridded:
-        found = [meshes[key] for key in gridded]
-        widths = np.array([steps[key] for key in gridded])
+    places: dict[int, int] = {}
+    for (_, is_gridded), keys in sorted(alike.items()):
+        found = [meshes[key] for key in keys]
+        widths = np.array([steps[key] for key in keys]) if is_gridded else None
         tasks.append(partial(block_of, found, packing.compress, finest, widths))
-    places = {key: place for place, key in enumerate([*floating, *gridded])}
-    nodes = [_kept(node, places, steps) for node in kept]
-    materials = list(scene.materials)
+        places |= {key: len(places) + place for place, key in enumerate(keys)}
+    surfaces = Surfaces.of(scene.materials)
+    nodes = [_kept(node, places, steps, surfaces) for node in kept]
     chunks: list[Chunk] = []
     if crowd is not None:
         chunks = chunks_of(crowd)
+        first = surfaces.add(crowd.materials)
         tasks += [partial(block_of_chunk, chunk, packing.compress, finest) for chunk in chunks]
         for number, chunk in enumerate(chunks):
-            part = len(places) + number, len(materials) + chunk.surface
+            part = len(places) + number, first + chunk.surface
             nodes.append(_merged(chunk, number, part, is_gridded=packing.compress != "none"))
-        materials += crowd.materials
-    return _Plan(nodes, materials, tasks, chunks)
+    return _Plan(nodes, surfaces, tasks, chunks)
+
+
+def _textures(plan: _Plan) -> list[TextureName]:
+    """Those that are shown, each once."""
+    materials = plan.surfaces.materials
+    if all(material.texture is None for material in materials):
+        return []
+    shown = (materials[number].texture for node in plan.nodes for _, number in node.parts)
+    return [name for name in dict.fromkeys(shown) if name is not None]
 
 
 def _is_simple(node: Node) -> bool:
     return len(node.primitives) == 1 and len(node.primitives[0].mesh.faces) > 0
+
+
+def _is_bare(node: Node) -> bool:
+    return node.primitives[0].mesh.coordinates is None
 
 
 def _meshes(nodes: Sequence[Node]) -> dict[int, Mesh]:
@@ -209,7 +241,9 @@ def _encoded(block: Block) -> Block:
     return replace(block, views=[encoded(view) for view in block.views])
 
 
-def _kept(node: Node, places: Mapping[int, int], steps: Mapping[int, float]) -> PackedNode:
+def _kept(
+    node: Node, places: Mapping[int, int], steps: Mapping[int, float], surfaces: Surfaces
+) -> PackedNode:
     parts = [part for part in node.primitives if len(part.mesh.faces)]
     scale = MOST_STEPS * steps[id(parts[0].mesh)] if parts and id(parts[0].mesh) in steps else 1.0
     return PackedNode(
@@ -218,7 +252,12 @@ def _kept(node: Node, places: Mapping[int, int], steps: Mapping[int, float]) -> 
         node.rotation,
         scale,
         node.extras,
-        tuple([(places[id(part.mesh)], part.material) for part in parts]),
+        tuple(
+            [
+                (places[id(part.mesh)], surfaces.number(part.material, part.mesh, scale))
+                for part in parts
+            ]
+        ),
     )
 
 

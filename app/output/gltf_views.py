@@ -28,7 +28,7 @@ class View:
     pieces: Sequence[Any]
     count: int
     stride: int
-    target: int
+    target: int | None
     mode: Mode | None = None
     filter: Filter | None = None
 
@@ -56,6 +56,11 @@ def triangles(pieces: Sequence[NDArray[Any]], *, encode: bool) -> View:
     """Triangles' vertex numbers (3 f,), uint16 or uint32, in ``pieces``."""
     mode: Mode | None = "TRIANGLES" if encode else None
     return View(pieces, sum(map(len, pieces)), pieces[0].itemsize, _TRIANGLES, mode)
+
+
+def file(content: bytes) -> View:
+    """A file as it is, of another format."""
+    return View([content], len(content), 1, None)
 
 
 def encoded(view: View) -> View:
@@ -93,7 +98,9 @@ def lay(views: Sequence[View]) -> Laid:
         else:
             place = {"buffer": 1, "byteOffset": fallback, "byteLength": view.size}
             fallback += view.size + -view.size % 4
-        found: dict[str, Any] = {**place, **vertex_rows, "target": view.target}
+        found: dict[str, Any] = {**place, **vertex_rows}
+        if view.target is not None:
+            found["target"] = view.target
         if view.mode is not None:
             found["extensions"] = {MESHOPT: _encoding(view, length)}
         told.append(found)

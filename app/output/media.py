@@ -13,12 +13,22 @@ Compression: TypeAlias = Literal["none", "quantize", "meshopt"]
 (EXT_meshopt_compression), or not."""
 
 
+Quality: TypeAlias = Literal["draft", "final"]
+"""By z-buffer, within a fraction of a second; or path traced, within seconds."""
+
+Motion: TypeAlias = Literal["turntable", "flight"]
+"""Once around the scene; or from far above along the tubes to the usual view."""
+
+
 class SceneFormat(StrEnum):
     """What a scene can be answered as."""
 
     GLB = "glb"
     GLTF = "gltf"
     PNG = "png"
+    SVG = "svg"
+    WEBP = "webp"
+    MP4 = "mp4"
     STL = "stl"
     THREE_MF = "3mf"
 
@@ -29,6 +39,9 @@ class SceneFormat(StrEnum):
             "glb": "model/gltf-binary",
             "gltf": "model/gltf+json",
             "png": "image/png",
+            "svg": "image/svg+xml",
+            "webp": "image/webp",
+            "mp4": "video/mp4",
             "stl": "model/stl",
             "3mf": "model/3mf",
         }[self.value]
@@ -40,6 +53,9 @@ class SceneFormat(StrEnum):
             "glb": "glTF 2.0, binary",
             "gltf": "glTF 2.0, JSON with embedded buffers",
             "png": "PNG picture",
+            "svg": "SVG line drawing",
+            "webp": "WebP, animated",
+            "mp4": "MP4 film",
             "stl": "STL for printing, binary",
             "3mf": "3MF for printing, with names and colours",
         }[self.value]
@@ -48,3 +64,13 @@ class SceneFormat(StrEnum):
     def is_printed(self) -> bool:
         """Whether it holds closed bodies, for printers."""
         return self in {SceneFormat.STL, SceneFormat.THREE_MF}
+
+    @property
+    def is_gltf(self) -> bool:
+        """Whether it holds the scene itself, for viewers."""
+        return self in {SceneFormat.GLB, SceneFormat.GLTF}
+
+    @property
+    def is_animated(self) -> bool:
+        """Whether it is a picture that moves."""
+        return self in {SceneFormat.WEBP, SceneFormat.MP4}

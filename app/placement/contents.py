@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from app.notations.notation import ItemStyle
 from app.placement.family import Family
-from app.placement.fitting import fit, shape_of, written_extent
-from app.placement.labels import front, strip
+from app.placement.fitting import fit, shape_of
+from app.placement.helix import Bulk, leaning, wind
+from app.placement.labels import strip
 from app.placement.rows import Arrangement, arrange
-from app.placement.turning import UNTURNED, Quaternion, from_degrees, reach, turned
-from app.program import shapes
-from app.program.model import Item, LineUp, Program
+from app.placement.sized import Place, Sized, alone
+from app.placement.turning import UNTURNED, then
+from app.program.model import Helix, LineUp, Program
 from app.solids.extents import size_of
-from app.solids.lettering import TextExtent
-from app.solids.solid import Box, Size, Solid, Tray
+from app.solids.solid import Box, Tray
 
 CAPTION_GAP = 0.1
 """Between a tray's contents and the label before them."""
@@ -34,58 +34,8 @@ as the narrowest."""
 DEEPER = 1.4
 """How far a tray is stretched at most, to be as deep as its neighbours."""
 
-Place = tuple[float, float]
-LineUps = dict[int, list[tuple[LineUp, list[int]]]]
-
-
-@dataclass(frozen=True, slots=True)
-class Footprint:
-    """Width and depth seen from above; ``center`` is the solid's own, seen from the middle."""
-
-    size: Place
-    center: Place
-
-
-@dataclass(slots=True)
-class Sized:
-    """An item with its solid.
-
-    ``children`` are those without positions, by number, seen from above, relative to its centre.
-    """
-
-    item: Item
-    style: ItemStyle
-    label: TextExtent | None
-    solid: Solid
-    size: Size
-    turn: Quaternion
-    children: dict[int, Place] = field(default_factory=dict)
-
-    @property
-    def is_free(self) -> bool:
-        """Whether a place is still to be found."""
-        return self.item.position is None
-
-    @property
-    def has_own_size(self) -> bool:
-        """Whether the document or the notation fixes the size."""
-        shape = self.item.shape or self.style.shape
-        return getattr(shape, "size", None) is not None
-
-    @property
-    def footprint(self) -> Footprint:
-        """The room that the item takes among its siblings, with its label, as it is turned."""
-        before = front(self.solid, self.label)
-        if self.label is None or not before:
-            width, depth, _ = reach(self.turn, self.size)
-            return Footprint((width, depth), (0.0, 0.0))
-        width, depth, rise = self.size
-        # The label stands on the ground before the solid, and may be taller.
-        tallest = max(rise, strip(self.label))
-        whole = (max(width, self.label.width), depth + before, tallest)
-        x, y, _ = turned(self.turn, (0.0, before / 2, (rise - tallest) / 2))
-        width, depth, _ = reach(self.turn, whole)
-        return Footprint((width, depth), (x, y))
+Groups = Sequence[tuple[LineUp | Helix, list[int]]]
+"""What stands together, with its members in order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,12 +52,12 @@ class Contents:
 def measure(
     program: Program, family: Family, styles: Sequence[ItemStyle]
 ) -> tuple[list[Sized], dict[int, Place]]:
-    """All items with their solids, and the places of free roots in the world."""
+    """All items with their solids, and the places of free roots in the world.
+
+    Raises `InconsistentDocument` and `DocumentTooLarge` for trees of solids that come to no body.
+    """
     line_ups = _line_ups(program, family)
-    sized = [
-        _alone(item, style, bool(children), program.style.labels)
-        for item, style, children in zip(program.items, styles, family.children, strict=True)
-    ]
+    sized = alone(program, family, styles)
     for number in reversed(family.order):
         children = family.children[number]
         if children:
@@ -120,25 +70,10 @@ def measure(
     return sized, roots.places
 
 
-def _alone(item: Item, style: ItemStyle, has_children: bool, labelled: bool) -> Sized:
-    shape = shape_of(item, style, has_children)
-    label = None
-    if labelled and item.label and not isinstance(shape, shapes.Text):
-        label = written_extent(item.label, style.label_height)
-    contents = (0.0, 0.0)
-    if isinstance(shape, shapes.Tray) and not has_children:
-        least = style.label_height
-        width = least if label is None else label.width
-        contents = (width + 2 * style.padding, max(least, strip(label)) + 2 * style.padding)
-    solid = fit(shape, item, style, label, contents)
-    turn = from_degrees(*item.rotation) if item.rotation else UNTURNED
-    return Sized(item, style, label, solid, size_of(solid), turn)
-
-
 def contain(
     sized: Sequence[Sized],
     children: Sequence[int],
-    line_ups: Sequence[tuple[LineUp, list[int]]],
+    line_ups: Groups,
     gap: float,
     arrangement: Arrangement,
 ) -> Contents:
@@ -163,7 +98,7 @@ def contain(
 def _arrange_free(
     sized: Sequence[Sized],
     free: Sequence[int],
-    line_ups: Sequence[tuple[LineUp, list[int]]],
+    line_ups: Groups,
     gap: float,
     arrangement: Arrangement,
 ) -> tuple[dict[int, Place], float, float]:
@@ -180,9 +115,15 @@ def _arrange_free(
             within[child] = (0.0, 0.0)
             continue
         line_up, members = line_of[child]
-        if child == members[0]:
+        if child != members[0]:
+            continue
+        blocks.append(members)
+        if isinstance(line_up, Helix):
+            around, centers = _wind([sized[member] for member in members], line_up, gap)
+            footprints.append((around, around))
+            within.update(zip(members, centers, strict=True))
+        else:
             inner = arrange([taken[member].size for member in members], gap, line_up.type)
-            blocks.append(members)
             footprints.append((inner.width, inner.depth))
             within.update(zip(members, inner.centers, strict=True))
     outer = arrange(footprints, gap, arrangement)
@@ -194,6 +135,19 @@ def _arrange_free(
             x, y = taken[child].center
             places[child] = (center[0] + within[child][0] + x, center[1] + within[child][1] + y)
     return places, outer.width, outer.depth
+
+
+def _wind(members: Sequence[Sized], helix: Helix, gap: float) -> tuple[float, list[Place]]:
+    """Turn and lift ``members``; the width of all, and where the middles of footprints are."""
+    lean = leaning(helix)
+    bulks = [Bulk.of(*member.whole, then(lean, member.turn)) for member in members]
+    wound = wind(helix, bulks, gap)
+    places: list[Place] = []
+    for member, (x, y, z), turn in zip(members, wound.centers, wound.turns, strict=True):
+        aside = member.footprint.center
+        places.append((x - aside[0], y - aside[1]))
+        member.turn, member.lift = then(turn, member.turn), z
+    return 2 * wound.reach, places
 
 
 def _deepen(child: Sized, depth: float) -> None:
@@ -225,8 +179,8 @@ def _bounds(items: Sequence[Sized]) -> tuple[Place, Place]:
     highs: list[Place] = []
     for sized in items:
         x, y, _ = sized.item.position or (0.0, 0.0, 0.0)
-        taken = sized.footprint
-        x, y = x - taken.center[0], y - taken.center[1]
+        taken, middle = sized.footprint, sized.middle
+        x, y = x + middle[0] - taken.center[0], y + middle[1] - taken.center[1]
         width, depth = taken.size
         lows.append((x - width / 2, y - depth / 2))
         highs.append((x + width / 2, y + depth / 2))
@@ -267,9 +221,11 @@ def _enclose(parent: Sized, contents: Contents) -> None:
     parent.size = size_of(parent.solid)
 
 
-def _line_ups(program: Program, family: Family) -> LineUps:
+def _line_ups(
+    program: Program, family: Family
+) -> dict[int, list[tuple[LineUp | Helix, list[int]]]]:
     numbers = {item.id: number for number, item in enumerate(program.items)}
-    found: LineUps = defaultdict(list)
+    found: dict[int, list[tuple[LineUp | Helix, list[int]]]] = defaultdict(list)
     for line_up in program.layout.constraints:
         members = [numbers[name] for name in line_up.items]
         found[family.parents[members[0]]].append((line_up, members))

@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import assert_never
 
 from app.notations.notation import ItemStyle
+from app.placement.trees import tree_of
 from app.program import shapes
 from app.program.model import Item
+from app.solids.csg_bodies import body_of
 from app.solids.lettering import TextExtent, extent
-from app.solids.solid import Arrow, Box, Cone, Cylinder, Size, Solid, Sphere, Text, Tray
+from app.solids.solid import Arrow, Box, Cone, Csg, Cylinder, Size, Solid, Sphere, Text, Tray
 
 EDGE = 0.05
 """Rounding of edges: enough for light to catch, little enough to look crisp."""
@@ -57,7 +59,10 @@ def fit(
     label: TextExtent | None,
     contents: tuple[float, float],
 ) -> Solid:
-    """The solid for ``shape``: around ``contents`` (width, depth, with margins) and its label."""
+    """The solid for ``shape``: around ``contents`` (width, depth, with margins) and its label.
+
+    Raises what `app.solids.csg.make_body` does.
+    """
     match shape:
         case shapes.Box(size=size):
             size = size or _block(style, label, contents)
@@ -76,6 +81,10 @@ def fit(
             return Cone(radius or 0.4, height or 0.8)
         case shapes.Arrow(length=length, radius=radius):
             return Arrow(length or 1.2, radius or 0.2)
+        case shapes.Csg(tree=root):
+            tree = tree_of(root)
+            body = body_of(tree)
+            return Csg(tree, body.size, body.middle, body.top)
         case shapes.Text(height=height, depth=depth):
             return Text(item.label or "", height or 1.5 * style.label_height, depth or 0.15)
         case _:

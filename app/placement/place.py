@@ -8,18 +8,20 @@ import numpy as np
 
 from app.arrays import Floats, Indices
 from app.notations.notation import Notation
-from app.placement.contents import Place, Sized, measure
+from app.placement.contents import measure
 from app.placement.family import Family, family
 from app.placement.labels import label_place
 from app.placement.placement import LabelPlace, Placement
 from app.placement.points import points_of
+from app.placement.sized import Place, Sized
 from app.placement.turning import UNTURNED, Quaternion, Vector, reach, then, turned
 from app.program.model import Program
+from app.solids.extents import middle_of
 from app.solids.solid import Tray
 
 
 def place(program: Program, notation: Notation) -> Placement:
-    """The places of all items and attachments.
+    """The places of all items and attachments. Raises what `app.solids.csg.make_body` does.
 
     Items with positions stay exactly there; the others stand in rows within their parents, or on
     the plane z = 0.
@@ -56,30 +58,31 @@ def _in_world(
     turns: list[Quaternion] = [UNTURNED] * len(sized)
     for number in relations.order:
         each = sized[number]
-        rise = reach(each.turn, each.size)[2] / 2
+        rise = reach(each.turn, each.size)[2] / 2 if each.lift is None else each.lift
+        offset = each.item.position
+        if offset is not None:
+            x, y, z = each.middle
+            offset = (offset[0] + x, offset[1] + y, offset[2] + z)
         parent = relations.parents[number]
         if parent < 0:
             turns[number] = each.turn
-            if each.item.position is None:
-                centers[number] = (*roots[number], rise)
-            else:
-                centers[number] = each.item.position
+            centers[number] = (*roots[number], rise) if offset is None else offset
             continue
         turns[number] = then(turns[parent], each.turn)
-        offset = each.item.position
         if offset is None:
             offset = (*sized[parent].children[number], _ground(sized[parent]) + rise)
-        moved = turned(turns[parent], offset)
+        x, y, z = middle_of(sized[parent].solid)
+        moved = turned(turns[parent], (offset[0] - x, offset[1] - y, offset[2] - z))
         x, y, z = (a + b for a, b in zip(centers[parent], moved, strict=True))
         centers[number] = (x, y, z)
     return centers, turns
 
 
 def _ground(parent: Sized) -> float:
-    """What children stand on: a tray's floor, or the top of anything else; about its centre."""
+    """What children stand on: a tray's floor, or the top of anything else; about its origin."""
     if isinstance(parent.solid, Tray):
         return parent.solid.floor - parent.size[2] / 2
-    return parent.size[2] / 2
+    return parent.size[2] / 2 + middle_of(parent.solid)[2]
 
 
 def _label(each: Sized) -> LabelPlace | None:

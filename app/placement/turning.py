@@ -57,6 +57,23 @@ def turned(quaternion: Quaternion, vector: Vector) -> Vector:
     return (a + 2 * (y * k - z * j), b + 2 * (z * i - x * k), c + 2 * (x * j - y * i))
 
 
+def turning_up_to(direction: Vector) -> Quaternion:
+    """The shortest turn that takes z to ``direction``, which is of any length but not zero.
+
+    >>> turning_up_to((0.0, 0.0, 5.0))
+    (0.0, 0.0, 0.0, 1.0)
+    """
+    largest = max(map(abs, direction))
+    x, y, z = (component / largest for component in direction)
+    length = math.hypot(x, y, z)
+    x, y, z = x / length, y / length, z / length
+    aside = math.hypot(x, y)
+    if aside == 0.0:
+        return UNTURNED if z > 0 else (1.0, 0.0, 0.0, 0.0)
+    half = math.atan2(aside, z) / 2
+    return (-y / aside * math.sin(half), x / aside * math.sin(half), 0.0, math.cos(half))
+
+
 def reach(quaternion: Quaternion, size: Vector) -> Vector:
     """Size, along the standing axes, of the box around a turned box of ``size``."""
     if quaternion == UNTURNED:

@@ -69,6 +69,13 @@ Coordinate = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
 
 Vector = Annotated[tuple[Coordinate, Coordinate, Coordinate], Strict(strict=False)]
 
+Degrees = Annotated[float, Field(ge=-360_000, le=360_000, allow_inf_nan=False)]
+
+Length = Annotated[float, Field(ge=1e-3, le=1e5, allow_inf_nan=False)]
+"""A size in document units: positive, finite, and within what single precision can draw."""
+
+Size = Annotated[tuple[Length, Length, Length], Strict(strict=False)]
+
 
 def _orderly(value: JsonValue) -> JsonValue:
     """The same value with its keys in order; refuses numbers that JSON cannot say."""

@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping
 from itertools import chain
 
 from app.errors import Fault, InconsistentDocument, pointer
+from app.program.csg import tree_faults
 from app.program.faults import first
 from app.program.hints import Hints
 from app.program.limits import count, refuse_too_many
 from app.program.model import Hyperedge, Item, Program
-from app.program.shapes import Text
+from app.program.shapes import Csg, Text
 from app.settings import Settings
 
 
@@ -46,6 +47,8 @@ def _item_faults(program: Program) -> Iterator[Fault]:
             )
         if isinstance(item.shape, Text) and not (item.label or "").strip():
             yield Fault(pointer("items", number, "shape"), "A text shape needs a label to show.")
+        if isinstance(item.shape, Csg):
+            yield from tree_faults(item.shape.tree, ("items", number, "shape", "tree"))
         points: set[str] = set()
         for place, point in enumerate(item.attachment_points):
             here = ("items", number, "attachment_points", place)

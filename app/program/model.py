@@ -6,10 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, Strict
 
-from app.program.base import Color, Data, Id, Label, Many, Part, Tallied, Vector
-from app.program.shapes import Length, Shape
+from app.program.base import Color, Data, Degrees, Id, Label, Length, Many, Part, Tallied, Vector
+from app.program.shapes import Shape
 
-Degrees = Annotated[float, Field(ge=-360_000, le=360_000, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 MaterialName = Literal["plastic", "metal", "glass", "wood", "stone", "matte", "plain"]
 Finish = Literal["shiny", "satin", "matte"]
@@ -85,6 +84,29 @@ class LineUp(Part):
     items: Many[Annotated[Id, Tallied]] = Field(min_length=2)
 
 
+class Helix(Part):
+    """Siblings without positions that climb around an upright axis, in the order given."""
+
+    type: Literal["helix"]
+    items: Many[Annotated[Id, Tallied]] = Field(min_length=2)
+    radius: Length | None = Field(
+        None, description="Of the line that the items' middles are on; left out, as they need."
+    )
+    pitch: Length | None = Field(None, description="Rise of one turn; left out, as they need.")
+    items_per_turn: float | None = Field(
+        None, ge=0.1, le=1e4, allow_inf_nan=False, description="Left out, eight or what fits."
+    )
+    rotate: bool = Field(True, description="Whether each item turns its front outward.")
+    tilt: Degrees = Field(0.0, description="How far the tops of turned items lean outward.")
+    start: Degrees = Field(
+        0.0, description="Where the first one stands: from the front, to the right."
+    )
+    clockwise: bool = Field(False, description="Which way it climbs, seen from above.")
+
+
+Constraint = Annotated[LineUp | Helix, Field(discriminator="type")]
+
+
 class Layout(Part):
     """How places and curves are found."""
 
@@ -118,7 +140,7 @@ class Layout(Part):
         allow_inf_nan=False,
         description="Wanted between tubes' surfaces, and from items; null: do not look.",
     )
-    constraints: Many[LineUp] = ()
+    constraints: Many[Constraint] = ()
 
 
 class Style(Part):

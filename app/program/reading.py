@@ -11,6 +11,7 @@ from app.errors import Fault, InvalidDocument, pointer
 from app.program.advice import advice, is_echo
 from app.program.checking import check
 from app.program.collection import collection_paused
+from app.program.csg import refuse_large_trees
 from app.program.faults import first
 from app.program.hints import Hints
 from app.program.limits import count_entries, refuse_too_many
@@ -33,6 +34,7 @@ def read_program(data: bytes, settings: Settings) -> Program:
     with collection_paused():
         document = parse(data, settings)
         refuse_too_many(count_entries(document), settings)
+        refuse_large_trees(document, settings)
         program = validate(Program, document)
         check(program, settings)
     return program

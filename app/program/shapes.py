@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, Strict
+from pydantic import Field
 
-from app.program.base import Part
-
-Length = Annotated[float, Field(ge=1e-3, le=1e5, allow_inf_nan=False)]
-"""A size in document units: positive, finite, and within what single precision can draw."""
-
-Size = Annotated[tuple[Length, Length, Length], Strict(strict=False)]
+from app.program.base import Length, Part, Size
+from app.program.csg import CsgNode
 
 
 class Box(Part):
@@ -68,4 +64,16 @@ class Text(Part):
     depth: Length | None = None
 
 
-Shape = Annotated[Box | Tray | Sphere | Cylinder | Cone | Arrow | Text, Field(discriminator="type")]
+class Csg(Part):
+    """A body made of simple solids: a tree of unions, intersections and differences.
+
+    The tree's origin stands where the item's position is.
+    """
+
+    type: Literal["csg"]
+    tree: CsgNode
+
+
+Shape = Annotated[
+    Box | Tray | Sphere | Cylinder | Cone | Arrow | Text | Csg, Field(discriminator="type")
+]

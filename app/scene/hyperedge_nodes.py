@@ -12,6 +12,7 @@ from app.program.model import Hyperedge, Program
 from app.scene.boxes import around_their_middles
 from app.scene.color import linear_of, srgb_of
 from app.scene.curve_reach import curve_boxes
+from app.scene.grain import textured_tubes, variant_of
 from app.scene.materials import Look, in_white, make_material, make_materials
 from app.scene.palette import colors
 from app.scene.scene import Crowd, Material, Node, Primitive
@@ -40,7 +41,12 @@ def hyperedge_nodes(
     nodes = [
         _node(
             hyperedge,
-            Mesh(vertices[start:end], tubes.normals[start:end], tubes.faces[first:last]),
+            _mesh(
+                hyperedge,
+                Mesh(vertices[start:end], tubes.normals[start:end], tubes.faces[first:last]),
+                material,
+                radius,
+            ),
             materials.setdefault(material, len(materials)),
             (x, y, z),
             radius,
@@ -58,6 +64,13 @@ def hyperedge_nodes(
         )
     ]
     return nodes, around
+
+
+def _mesh(hyperedge: Hyperedge, mesh: Mesh, material: Material, radius: float) -> Mesh:
+    """With coordinates, where the material has a texture."""
+    if material.texture is None:
+        return mesh
+    return textured_tubes(mesh, material.texture, radius, variant_of(hyperedge.id))
 
 
 def _node(

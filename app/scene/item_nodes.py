@@ -13,9 +13,10 @@ from app.placement.placement import LabelPlace, Placement
 from app.placement.turning import matrices
 from app.program.model import Item, Program
 from app.scene.color import difference, srgb_of
+from app.scene.grain import textured, variant_of
 from app.scene.materials import SURFACES, Look, make_material
 from app.scene.palette import VANISHING
-from app.scene.scene import Material, Node, Primitive
+from app.scene.scene import Material, Node, Primitive, TextureName
 from app.solids.mesh import Mesh
 from app.solids.meshing import mesh_of
 from app.solids.solid import Solid
@@ -29,8 +30,8 @@ def item_nodes(
 ) -> list[Node]:
     """One node for each item, in the order of the document.
 
-    Equal bodies share one `Mesh`, and so do equal labels. New materials join ``materials``,
-    which numbers them.
+    Equal bodies share one `Mesh`, and so do equal labels. Bodies with a texture are cut from it at
+    one of a few places, as their ids say. New materials join ``materials``, which numbers them.
     """
     bodies: dict[Solid, Mesh] = {}
     labels: dict[LabelPlace, Mesh] = {}
@@ -39,10 +40,13 @@ def item_nodes(
     for number, item in enumerate(program.items):
         style = notation.item_style(item.kind)
         solid, place = placement.solids[number], placement.labels[number]
-        body = bodies.get(solid)
-        if body is None:
-            body = bodies[solid] = mesh_of(solid)
-        parts = [(body, _material(item, style))]
+        material = _material(item, style)
+        if material.texture is not None:
+            body = _textured(solid, material.texture, variant_of(item.id))
+        else:
+            known = bodies.get(solid)
+            body = known or bodies.setdefault(solid, mesh_of(solid))
+        parts = [(body, material)]
         if place is not None and program.style.labels:
             label = labels.get(place)
             if label is None:
@@ -81,6 +85,11 @@ def _material(item: Item, style: ItemStyle) -> Material:
 
 def _first(*values: float | None) -> float | None:
     return next((value for value in values if value is not None), None)
+
+
+@lru_cache(maxsize=128)
+def _textured(solid: Solid, texture: TextureName, variant: int) -> Mesh:
+    return textured(mesh_of(solid), texture, variant)
 
 
 @lru_cache(maxsize=512)

@@ -20,8 +20,8 @@ class Material:
 
     ``base_color`` is linear RGB, and the opacity that it has where nothing can be refracted;
     ``transmission`` is the share of light that passes where something can (with ``ior``, the index
-    of refraction). A ``texture`` is multiplied by the colour; its mean is white. A surface that is
-    not lit shows its colour as it is.
+    of refraction). A ``texture`` is multiplied by the colour's `app.scene.textures.tint`. A surface
+    that is not lit shows its colour as it is.
     """
 
     name: str
@@ -92,7 +92,9 @@ class Camera:
     """A camera at ``position`` that looks at ``target``, ``up`` being up in the picture.
 
     ``vertical_angle`` (radians) is that of a perspective camera; ``height`` (document units) is
-    what an orthographic one sees from bottom to top. Exactly one of them is set.
+    what an orthographic one sees from bottom to top. Exactly one of them is set. ``shift`` is how
+    far the picture's middle lies to the right of where the camera looks, and above it, in halves of
+    the picture's width and height: by (1, 0) the camera looks at the left edge. Nothing is turned.
     """
 
     position: tuple[float, float, float]
@@ -103,6 +105,7 @@ class Camera:
     far: float
     vertical_angle: float | None = None
     height: float | None = None
+    shift: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import assert_never
 
 from app.solids.lettering import extent
-from app.solids.solid import Arrow, Box, Cone, Cylinder, Size, Solid, Sphere, Text, Tray
+from app.solids.solid import Arrow, Box, Cone, Csg, Cylinder, Size, Solid, Sphere, Text, Tray
 
 
 def size_of(solid: Solid) -> Size:
@@ -15,7 +15,7 @@ def size_of(solid: Solid) -> Size:
     (3.0, 1.0, 1.0)
     """
     match solid:
-        case Box(size=size) | Tray(size=size):
+        case Box(size=size) | Tray(size=size) | Csg(size=size):
             return size
         case Sphere(radius=radius):
             return (2 * radius, 2 * radius, 2 * radius)
@@ -28,3 +28,8 @@ def size_of(solid: Solid) -> Size:
             return (room.width, room.top - room.bottom, depth if room.width else 0.0)
         case _:
             assert_never(solid)
+
+
+def middle_of(solid: Solid) -> Size:
+    """Where the centre of ``solid`` is, seen from the origin that its document gave it."""
+    return solid.middle if isinstance(solid, Csg) else (0.0, 0.0, 0.0)

@@ -106,6 +106,12 @@ def _around(segments: int) -> tuple[Floats, Floats]:
 
 def turn(plan: Plan, profile: Profile) -> Mesh:
     """The solid that ``profile`` makes around ``plan``."""
+    vertices, normals, faces = turn_exactly(plan, profile)
+    return Mesh(vertices.astype(np.float32), normals.astype(np.float32), faces)
+
+
+def turn_exactly(plan: Plan, profile: Profile) -> tuple[Floats, Floats, Faces]:
+    """The same in double precision: vertices (v, 3), normals (v, 3), faces (f, 3)."""
     distance, z, outward, upward = profile.T
     at_pole = distance == 0
     rows = np.cumsum(np.concatenate([[False], np.any(np.diff(profile[:, :2], axis=0), axis=1)]))
@@ -123,11 +129,7 @@ def turn(plan: Plan, profile: Profile) -> Mesh:
     sideways = np.where(at_pole[:, None, None], plan.tips, plan.normals)
     normals[..., :2] = outward[:, None, None] * sideways
     normals[..., 2] = upward[:, None]
-    return Mesh(
-        vertices.reshape(-1, 3)[used].astype(np.float32),
-        normals.reshape(-1, 3)[used].astype(np.float32),
-        faces,
-    )
+    return vertices.reshape(-1, 3)[used], normals.reshape(-1, 3)[used], faces
 
 
 @lru_cache(maxsize=128)

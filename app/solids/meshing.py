@@ -6,9 +6,10 @@ from functools import lru_cache
 from typing import assert_never
 
 from app.solids.blocks import block_mesh
+from app.solids.csg_bodies import body_of
 from app.solids.mesh import Mesh
 from app.solids.rounds import round_mesh
-from app.solids.solid import Arrow, Box, Cone, Cylinder, Solid, Sphere, Text, Tray
+from app.solids.solid import Arrow, Box, Cone, Csg, Cylinder, Solid, Sphere, Text, Tray
 from app.solids.texts import text_mesh
 
 LONGEST_KEPT = 64
@@ -22,6 +23,8 @@ def mesh_of(solid: Solid) -> Mesh:
     """
     if isinstance(solid, Text) and len(solid.text) > LONGEST_KEPT:
         return _made(solid)
+    if isinstance(solid, Csg):
+        return body_of(solid.tree).mesh
     return _kept(solid)
 
 
@@ -45,5 +48,7 @@ def _mesh(solid: Solid) -> Mesh:
             return round_mesh(solid)
         case Text():
             return text_mesh(solid)
+        case Csg():
+            return body_of(solid.tree).mesh
         case _:
             assert_never(solid)

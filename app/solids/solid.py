@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from app.solids.csg_tree import Tree
+
 Size: TypeAlias = tuple[float, float, float]
 
 
@@ -72,4 +74,18 @@ class Text:
     depth: float
 
 
-Solid: TypeAlias = Box | Tray | Sphere | Cylinder | Cone | Arrow | Text
+@dataclass(frozen=True, slots=True)
+class Csg:
+    """What a tree of simple solids comes to, of ``size``.
+
+    The box around it is centred on the origin; the tree's own origin is at -``middle``. ``top`` is
+    where something that comes from above meets it.
+    """
+
+    tree: Tree
+    size: Size
+    middle: Size
+    top: Size
+
+
+Solid: TypeAlias = Box | Tray | Sphere | Cylinder | Cone | Arrow | Text | Csg

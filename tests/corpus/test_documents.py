@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from app.formats.registry import read
-from app.pipeline import make_scene
 from app.program.model import Program
 from app.settings import Settings
+from app.staging import make_scene
 
 ROOT = Path(__file__).parents[2]
 DOCUMENTS = [

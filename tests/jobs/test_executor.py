@@ -72,6 +72,7 @@ def test_works_wait_for_the_first_worker_and_the_end_of_the_pool_is_that_of_its_
         assert finished.pieces[0].startswith(b"glTF")
         assert finished.waited > 0
         assert pool.warm == 1
+        assert finished.answer.etag
         again = await pool.answer(DOCUMENT, RenderOptions(), frozenset({finished.answer.etag}))
         assert again.answer == Unchanged(finished.answer.etag)
 

@@ -29,6 +29,7 @@ def test_the_stages_of_the_work_are_timed_in_order() -> None:
 def test_what_is_known_is_not_made_again() -> None:
     first, _ = do(Work(RenderOptions()), DOCUMENT, Settings())
     assert isinstance(first.outcome, Answer)
+    assert first.outcome.etag
     known = frozenset({first.outcome.etag})
     reply, body = do(Work(RenderOptions(), known), DOCUMENT, Settings())
     assert (reply.outcome, body) == (Unchanged(first.outcome.etag), b"")

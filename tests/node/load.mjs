@@ -1,13 +1,30 @@
 // Prints what three.js finds in each file named on the command line, as JSON: every object with
-// its name, user data, place in the world, number of triangles and vertex attributes; and whatever
-// three.js warned of.
+// its name, user data, place in the world, number of triangles, vertex attributes, and what is special
+// of its material; and whatever three.js warned of.
 import { readFile } from 'node:fs/promises';
-import { Box3 } from 'three';
+import { Box3, Texture } from 'three';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 // Browsers have it, Node has not; the loader reports its progress with it.
 globalThis.ProgressEvent ??= class extends Event {};
+
+// Node has no decoder of pictures either: of a texture, three.js finds its number alone.
+function undrawn() {
+  return {
+    name: 'undrawn',
+    loadTexture: async (number) => Object.assign(new Texture(), { userData: { number } }),
+  };
+}
+
+function special(material) {
+  return {
+    type: material.type,
+    texture: material.map?.userData.number ?? null,
+    transmission: material.transmission ?? 0,
+    clearcoat: material.clearcoat ?? 0,
+  };
+}
 
 function triangles(object) {
   let count = 0;
@@ -28,6 +45,7 @@ function describe(object) {
     high: box.max.toArray(),
     triangles: triangles(object),
     attributes: object.isMesh ? Object.keys(object.geometry.attributes).sort() : [],
+    material: object.isMesh ? special(object.material) : null,
   };
 }
 
@@ -41,7 +59,7 @@ for (const path of process.argv.slice(2)) {
   const { buffer, byteOffset, byteLength } = await readFile(path);
   const data = buffer.slice(byteOffset, byteOffset + byteLength);
   warnings = [];
-  const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
+  const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).register(undrawn);
   const { scene, cameras } = await loader.parseAsync(data, '');
   scene.updateMatrixWorld(true);
   const objects = [];

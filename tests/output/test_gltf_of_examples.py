@@ -8,8 +8,8 @@ import pytest
 
 from app.formats import registry
 from app.output.gltf import write_glb, write_gltf
-from app.pipeline import make_scene
 from app.settings import Settings
+from app.staging import make_scene
 from tests.output.node_tools import load, validate
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

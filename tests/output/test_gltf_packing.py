@@ -17,9 +17,9 @@ from app.output.gltf_chunks import MOST_SHORT
 from app.output.gltf_numbers import MOVED
 from app.output.gltf_packing import MANY, Packing
 from app.output.media import Compression
-from app.pipeline import make_crowd, make_scene
 from app.scene.scene import Node, Primitive, Scene
 from app.solids.mesh import Mesh
+from app.staging import make_crowd, make_scene
 from tests.output.gltf_reader import Asset
 from tests.output.node_tools import load, run_module, validate
 from tests.output.woven_scenes import (

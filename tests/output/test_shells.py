@@ -9,13 +9,12 @@ import pytest
 import trimesh
 
 from app.errors import DocumentTooLarge, Unprintable
-from app.layout import silent
 from app.output.media import Parts
 from app.output.shells import refuse_too_many, shells, triangles_of
-from app.pipeline import make_bodies, make_scene
 from app.program.reading import read_program
 from app.scene.scene import Scene
 from app.settings import Settings
+from app.staging import bodies_for_print, make_scene
 from tests.output.scenes import box, matte, node, scene
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -30,12 +29,7 @@ BOXES = scene(
 def printed_scene(document: dict[str, Any] | bytes) -> Scene:
     """The scene of a document, with tubes for printing."""
     data = document if isinstance(document, bytes) else json.dumps(document).encode()
-    program = read_program(data, Settings())
-
-    def bodies(program: Any, routing: Any) -> Any:
-        return make_bodies(program, routing, most=10**9, progress=silent)
-
-    return make_scene(program, 4 / 3, tubes_of=bodies)
+    return make_scene(read_program(data, Settings()), 4 / 3, sweeping=bodies_for_print(10**9))
 
 
 def as_body(vertices: Any, faces: Any) -> trimesh.Trimesh:

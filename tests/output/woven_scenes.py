@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from app.arrays import Floats
-from app.pipeline import make_scene
 from app.program.model import Program
 from app.scene.scene import Node, Scene
+from app.staging import make_scene
 from tests.output.gltf_reader import Asset
 
 RADIUS = 0.08

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from app.arrays import Floats
-from app.pipeline import make_scene
 from app.placement.turning import Vector, then, turned
 from app.scene.scene import Camera
+from app.staging import make_scene
 from tests.placement.test_place import example
 
 WIDTH, HEIGHT = 1024, 768

@@ -33,7 +33,21 @@ def shape(name: str, *keys: str) -> st.SearchStrategy[dict[str, Any]]:
     return st.fixed_dictionaries({"type": st.just(name)}, optional=sizes)
 
 
+trees = st.recursive(
+    shape("box").map(lambda box: {**box, "size": [1, 2, 3]})
+    | shape("sphere").map(lambda ball: {**ball, "radius": 1}),
+    lambda inner: st.fixed_dictionaries(
+        {
+            "type": st.sampled_from(("union", "intersection", "difference")),
+            "of": st.lists(inner, min_size=1, max_size=3),
+        },
+        optional={"position": vectors},
+    ),
+    max_leaves=5,
+)
+
 shapes = st.one_of(
+    trees.map(lambda tree: {"type": "csg", "tree": tree}),
     shape("box", "size"),
     shape("tray", "size", "wall"),
     shape("sphere", "radius"),

@@ -32,5 +32,5 @@ def test_a_location_in_a_netlist_loses_what_names_the_members_of_a_union() -> No
 
 def test_the_keys_are_those_of_the_object_with_the_fault() -> None:
     assert place(Program, ("view", "form")).keys == (
-        "field_of_view", "from", "margin", "projection",
+        "eye_distance", "field_of_view", "from", "margin", "projection", "stereo",
     )  # fmt: skip

@@ -45,6 +45,21 @@ def test_far_from_the_origin_no_more_is_lost_than_the_tubes_had_lost() -> None:
     assert np.array_equal(moved, tubes.mesh(0).vertices.astype(np.float64))
 
 
+def test_only_hyperedges_with_a_texture_have_coordinates() -> None:
+    ends = [{"item": "x"}, {"item": "y"}]
+    program = program_of(
+        items=[{"id": "x"}, {"id": "y"}],
+        hyperedges=[
+            {"id": name, "material": name, "attachments": ends}
+            for name in ("wood", "stone", "plastic")
+        ],
+    )
+    scene = scene_of(program)
+    for name in ("wood", "stone", "plastic"):
+        (part,) = node_named(scene, name).primitives
+        assert (part.mesh.coordinates is not None) == (name != "plastic")
+
+
 def test_every_hyperedge_has_its_own_colour_in_the_order_of_the_document() -> None:
     scene = scene_of(three_items())
     assert material_of(scene, "e") == f"plastic {PALETTE[0]}"

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from app.notations.notation import ItemStyle, Notation
+from app.scene.grain import VARIANTS
 from app.scene.item_nodes import INKS
 from app.solids.meshing import mesh_of
 from app.solids.solid import Sphere
@@ -50,6 +51,34 @@ def test_items_of_one_shape_share_one_mesh_and_equal_labels_another() -> None:
     a, b, c = scene_of(program).nodes[:3]
     assert a.primitives[0].mesh is b.primitives[0].mesh is c.primitives[0].mesh
     assert a.primitives[1].mesh is b.primitives[1].mesh is c.primitives[1].mesh
+
+
+def test_textured_items_of_one_shape_share_few_meshes_and_their_coordinates() -> None:
+    names = [f"item {number}" for number in range(30)]
+    program = program_of(items=[{"id": name, "material": "wood"} for name in names])
+    nodes = scene_of(program).nodes[:30]
+    meshes = {id(node.primitives[0].mesh): node.primitives[0].mesh for node in nodes}
+    assert len(meshes) == VARIANTS, "so that neighbours are not clones"
+    assert all(mesh.coordinates is not None for mesh in meshes.values())
+    again = scene_of(program).nodes[:30]
+    assert [node.primitives[0].mesh for node in again] == [
+        node.primitives[0].mesh for node in nodes
+    ]
+
+
+def test_only_bodies_with_a_texture_have_coordinates() -> None:
+    items = [
+        {"id": "w", "material": "wood", "label": "W"},
+        {"id": "s", "material": "stone", "label": "S"},
+        {"id": "p", "label": "P"},
+    ]
+    scene = scene_of(program_of(items=items))
+    textured = [
+        [part.mesh.coordinates is not None for part in node_named(scene, name).primitives]
+        for name in "wsp"
+    ]
+    assert textured == [[True, False], [True, False], [False, False]]
+    assert node_named(scene, "p").primitives[0].mesh is mesh_of(CUBE)
 
 
 def test_without_labels_there_are_only_bodies() -> None:

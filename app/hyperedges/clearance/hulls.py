@@ -11,7 +11,7 @@ import numpy as np
 from app.arrays import Floats
 from app.solids.blocks import hollow
 from app.solids.rounds import HEAD, SHAFT
-from app.solids.solid import Arrow, Box, Cone, Cylinder, Size, Solid, Sphere, Text, Tray
+from app.solids.solid import Arrow, Box, Cone, Csg, Cylinder, Size, Solid, Sphere, Text, Tray
 
 AROUND = 4
 """Boxes around the axis of a cylinder. Together they are the octagon around its circle, eight
@@ -42,7 +42,7 @@ def hull(solid: Solid, size: Size) -> Boxes:
     [2.0]
     """
     match solid:
-        case Box() | Text():
+        case Box() | Text() | Csg():
             return _upright([(0.0, 0.0, 0.0)], [size])
         case Tray():
             return _tray(solid)

@@ -1,0 +1,100 @@
+"""An answer as server-sent events: how the work goes on, the picture as it comes, and the end.
+
+Events are ``progress`` (stage, share), ``preview`` (a picture that is not finished), and at last
+``answer`` (what a plain request would have got) or ``problem``.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import json
+from collections.abc import AsyncIterator
+from typing import Any
+
+import structlog
+from fastapi.sse import EventSourceResponse, format_sse_event
+from starlette.requests import Request
+from starlette.responses import StreamingResponse
+
+from app.answers import Answer, Options
+from app.api.problems import problem_of
+from app.api.responses import headers_of
+from app.errors import TubeloomError
+from app.jobs.executor import WorkerPool
+from app.jobs.work import Report
+
+log = structlog.get_logger("tubeloom.http")
+
+MEDIA_TYPE = EventSourceResponse.media_type
+
+SILENCE_SECONDS = 10.0
+"""After which a comment says that there is still somebody here: proxies close what is silent."""
+
+
+def event_response(
+    request: Request, pool: WorkerPool, document: bytes, options: Options, ending: str
+) -> StreamingResponse:
+    """The answer that ``pool`` will have, as events; who leaves stops the work."""
+    events = _events(request, pool, document, options, ending)
+    return StreamingResponse(
+        events, media_type=MEDIA_TYPE, headers={"Cache-Control": "no-store", "Vary": "Accept"}
+    )
+
+
+async def _events(
+    request: Request, pool: WorkerPool, document: bytes, options: Options, ending: str
+) -> AsyncIterator[bytes]:
+    heard: asyncio.Queue[tuple[Report, bytes] | None] = asyncio.Queue()
+    work = asyncio.create_task(
+        pool.answer(
+            document, options, listener=lambda report, preview: heard.put_nowait((report, preview))
+        )
+    )
+    work.add_done_callback(lambda _work: heard.put_nowait(None))
+    try:
+        while True:
+            try:
+                async with asyncio.timeout(SILENCE_SECONDS):
+                    news = await heard.get()
+            except TimeoutError:
+                yield format_sse_event(comment="still at work")
+                continue
+            if news is None:
+                break
+            yield _news(*news)
+        yield _end(request, work, ending)
+    finally:
+        work.cancel()
+
+
+def _news(report: Report, preview: bytes) -> bytes:
+    if preview:
+        return _event("preview", {"media_type": "image/png", "base64": _base64(preview)})
+    return _event("progress", {"stage": report.stage, "share": round(report.share, 4)})
+
+
+def _end(request: Request, work: asyncio.Task[Any], ending: str) -> bytes:
+    try:
+        finished = work.result()
+    except Exception as error:
+        if not isinstance(error, TubeloomError):
+            log.exception("unexpected error")
+        return _event("problem", problem_of(request, error))
+    assert isinstance(finished.answer, Answer), "nothing is known, so nothing is unchanged"  # noqa: S101
+    return _event(
+        "answer",
+        {
+            "media_type": finished.answer.media_type,
+            "headers": headers_of(finished, ending),
+            "base64": _base64(b"".join(finished.pieces)),
+        },
+    )
+
+
+def _event(name: str, data: dict[str, Any]) -> bytes:
+    return format_sse_event(event=name, data_str=json.dumps(data, ensure_ascii=False))
+
+
+def _base64(data: bytes) -> str:
+    return base64.b64encode(data).decode("ascii")

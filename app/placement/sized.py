@@ -1,0 +1,122 @@
+"""Items with their solids, by themselves: before they are arranged."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from app.errors import DocumentTooLarge, Fault, InconsistentDocument, pointer
+from app.notations.notation import ItemStyle
+from app.placement.family import Family
+from app.placement.fitting import fit, shape_of, written_extent
+from app.placement.labels import front, strip
+from app.placement.turning import UNTURNED, Quaternion, from_degrees, reach, turned
+from app.program import shapes
+from app.program.faults import first
+from app.program.model import Item, Program
+from app.solids.extents import middle_of, size_of
+from app.solids.lettering import TextExtent
+from app.solids.solid import Size, Solid
+
+Place = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Footprint:
+    """Width and depth seen from above; ``center`` is the solid's own, seen from the middle."""
+
+    size: Place
+    center: Place
+
+
+@dataclass(slots=True)
+class Sized:
+    """An item with its solid.
+
+    ``children`` are those without positions, by number: their solids' centres seen from above,
+    relative to its origin. ``lift`` is how high its own solid's centre is over what it stands on,
+    where it does not stand there itself.
+    """
+
+    item: Item
+    style: ItemStyle
+    label: TextExtent | None
+    solid: Solid
+    size: Size
+    turn: Quaternion
+    children: dict[int, Place] = field(default_factory=dict)
+    lift: float | None = None
+
+    @property
+    def is_free(self) -> bool:
+        """Whether a place is still to be found."""
+        return self.item.position is None
+
+    @property
+    def has_own_size(self) -> bool:
+        """Whether the document or the notation fixes the size."""
+        shape = self.item.shape or self.style.shape
+        return getattr(shape, "size", None) is not None
+
+    @property
+    def footprint(self) -> Footprint:
+        """The room that the item takes among its siblings, with its label, as it is turned."""
+        whole, middle = self.whole
+        width, depth, _ = reach(self.turn, whole)
+        x, y, _ = turned(self.turn, middle)
+        return Footprint((width, depth), (-x, -y))
+
+    @property
+    def whole(self) -> tuple[Size, Size]:
+        """Size and middle of the box around the solid and its label, from the solid's centre."""
+        before = front(self.solid, self.label)
+        if self.label is None or not before:
+            return self.size, (0.0, 0.0, 0.0)
+        width, depth, rise = self.size
+        # The label stands on the ground before the solid, and may be taller.
+        tallest = max(rise, strip(self.label))
+        whole = (max(width, self.label.width), depth + before, tallest)
+        return whole, (0.0, -before / 2, (tallest - rise) / 2)
+
+    @property
+    def middle(self) -> Size:
+        """The solid's centre, seen from the item's origin along its parent's axes."""
+        return turned(self.turn, middle_of(self.solid))
+
+
+def alone(program: Program, family: Family, styles: Sequence[ItemStyle]) -> list[Sized]:
+    """All items, none of them around what it contains yet.
+
+    Raises `InconsistentDocument` with every tree that comes to no body, and `DocumentTooLarge`.
+    """
+    sized: list[Sized] = []
+    faults: list[Fault] = []
+    for number, item in enumerate(program.items):
+        place = pointer("items", number, "shape", "tree")
+        try:
+            has_children = bool(family.children[number])
+            sized.append(_alone(item, styles[number], has_children, program.style.labels))
+        except InconsistentDocument as error:
+            faults.extend(Fault(place + fault.pointer, fault.detail) for fault in error.faults)
+        except DocumentTooLarge as error:
+            raise DocumentTooLarge(
+                [Fault(place + fault.pointer, fault.detail) for fault in error.faults]
+            ) from None
+    if faults:
+        raise InconsistentDocument(first(faults))
+    return sized
+
+
+def _alone(item: Item, style: ItemStyle, has_children: bool, labelled: bool) -> Sized:
+    shape = shape_of(item, style, has_children)
+    label = None
+    if labelled and item.label and not isinstance(shape, shapes.Text):
+        label = written_extent(item.label, style.label_height)
+    contents = (0.0, 0.0)
+    if isinstance(shape, shapes.Tray) and not has_children:
+        least = style.label_height
+        width = least if label is None else label.width
+        contents = (width + 2 * style.padding, max(least, strip(label)) + 2 * style.padding)
+    solid = fit(shape, item, style, label, contents)
+    turn = from_degrees(*item.rotation) if item.rotation else UNTURNED
+    return Sized(item, style, label, solid, size_of(solid), turn)

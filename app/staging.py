@@ -1,0 +1,108 @@
+"""From a program to its scene: layout, tubes, assembly."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from app.arrays import Floats
+from app.hyperedges.routing import Routing
+from app.layout import Layout, Progress, lay_out, silent
+from app.notations.loader import load_notation
+from app.output.shells import refuse_too_many
+from app.program.model import Program
+from app.scene.assemble import assemble
+from app.scene.detail import tolerances
+from app.scene.scene import Scene
+from app.tubes.patches import patch_tubes
+from app.tubes.sweep import sweep
+from app.tubes.tubes import Tubes
+from app.tubes.unions import plan_unions, unite
+from app.tubes.unswept import UnsweptTubes
+
+TUBE_TOLERANCE = 0.02
+"""How far a mesh may be from its tube, as a share of the thinnest radius: some 16 sides. Further
+where no picture of the size asked for could show it; see `app.scene.detail`."""
+
+Sweeping = Callable[[Program, Routing, float | Floats], Tubes | UnsweptTubes]
+"""Makes tubes that are off by no more than a tolerance: one for all, or one for each (h,)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Staged:
+    """A scene, and the layout that it shows."""
+
+    layout: Layout
+    scene: Scene
+
+
+def make_scene(
+    program: Program,
+    aspect: float,
+    progress: Progress = silent,
+    sweeping: Sweeping | None = None,
+    height: int | None = None,
+) -> Scene:
+    """The scene alone of `stage`."""
+    return stage(program, aspect, progress, sweeping, height).scene
+
+
+def stage(
+    program: Program,
+    aspect: float,
+    progress: Progress = silent,
+    sweeping: Sweeping | None = None,
+    height: int | None = None,
+) -> Staged:
+    """Place, route, make tubes, assemble: everything between reading and writing.
+
+    Tubes are what ``sweeping`` (`make_tubes`) makes, no finer than shows in a picture ``height``
+    pixels high, where there is one.
+    """
+    laid = lay_out(program, progress=progress)
+    progress("making tubes", 0.4)
+    tolerance = _tolerance(laid, aspect, height)
+    tubes = (sweeping or make_tubes)(program, laid.routing, tolerance)
+    progress("assembling the scene", 0.5)
+    notation = load_notation(program.notation)
+    return Staged(laid, assemble(program, notation, laid.placement, tubes, aspect))
+
+
+def make_tubes(program: Program, routing: Routing, tolerance: float | Floats) -> Tubes:
+    """Tubes around the curves, as the document's ``layout`` wishes."""
+    if not program.hyperedges:
+        return Tubes.none()
+    if program.layout.tube == "patches":
+        return patch_tubes(routing, program.layout.patch_rule, tolerance)
+    return sweep(routing, tolerance)
+
+
+def make_crowd(_program: Program, routing: Routing, tolerance: float | Floats) -> UnsweptTubes:
+    """Tubes of very many hyperedges, which are made when they are written."""
+    return UnsweptTubes.of(routing, tolerance)
+
+
+def bodies_for_print(most: int, progress: Progress = silent) -> Sweeping:
+    """Makes tubes for printing: each hyperedge one closed body, of ``most`` triangles together."""
+    return partial(_make_bodies, most=most, progress=progress)
+
+
+def _make_bodies(
+    program: Program, routing: Routing, _tolerance: float | Floats, *, most: int, progress: Progress
+) -> Tubes:
+    if not program.hyperedges:
+        return Tubes.none()
+    plan = plan_unions(routing, TUBE_TOLERANCE * routing.radii)
+    refuse_too_many(plan.triangles, most)
+    names = [hyperedge.id for hyperedge in program.hyperedges]
+    return unite(plan, names, lambda share: progress("making tubes", 0.4 + 0.1 * share))
+
+
+def _tolerance(layout: Layout, aspect: float, height: int | None) -> float | Floats:
+    """How far meshes may be from their tubes: one for all, or one for each hyperedge, (h,)."""
+    routing, program = layout.routing, layout.program
+    finest = TUBE_TOLERANCE * float(routing.radii.min(initial=1.0))
+    if height is None or not program.hyperedges:
+        return finest
+    return tolerances(layout.placement, routing, program.view, aspect, height, finest)

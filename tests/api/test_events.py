@@ -1,0 +1,79 @@
+from __future__ import annotations
+
+import base64
+import time
+
+import httpx
+import pytest
+
+from tests.api.event_streams import Event, events
+from tests.service import SMALL, Service, cpu_seconds, large_program
+
+STREAM = {"accept": "text/event-stream"}
+
+
+def stream(client: httpx.Client, query: str, content: bytes | None = None) -> list[Event]:
+    body = {"json": SMALL} if content is None else {"content": content}
+    with client.stream("POST", f"/v1/render?{query}", headers=STREAM, **body) as response:
+        assert response.status_code == 200
+        assert response.headers["content-type"].startswith("text/event-stream")
+        return list(events(response))
+
+
+def test_the_last_event_is_what_a_plain_request_gets(client: httpx.Client) -> None:
+    plain = client.post("/v1/render?format=gltf", json=SMALL)
+    last = stream(client, "format=gltf")[-1]
+    assert last.name == "answer"
+    assert base64.b64decode(last.data["base64"]) == plain.content
+    assert last.data["media_type"] == plain.headers["content-type"]
+    assert last.data["headers"]["ETag"] == plain.headers["etag"]
+
+
+def test_progress_rises_from_nothing_to_the_end(client: httpx.Client) -> None:
+    told = [
+        event.data
+        for event in stream(client, "format=glb", large_program(1000))
+        if event.name == "progress"
+    ]
+    shares = [news["share"] for news in told]
+    assert len(shares) >= 3
+    assert shares == sorted(shares)
+    assert shares[0] < 0.2 < shares[-1] <= 1
+    assert "laying out hyperedges" in {news["stage"] for news in told}
+
+
+def test_a_problem_ends_the_stream_as_it_would_end_a_request(client: httpx.Client) -> None:
+    last = stream(client, "", b'{"items": 1}')[-1]
+    assert last.name == "problem"
+    assert last.data["type"] == "urn:tubeloom:problem:invalid-document"
+    assert last.data["errors"][0]["pointer"] == "/items"
+
+
+def test_what_is_accepted_besides_says_in_which_format_the_answer_comes(
+    client: httpx.Client,
+) -> None:
+    headers = {"accept": "text/event-stream, model/gltf+json"}
+    with client.stream("POST", "/v1/render", headers=headers, json=SMALL) as response:
+        last = list(events(response))[-1]
+    assert last.data["media_type"] == "model/gltf+json"
+
+
+@pytest.mark.parametrize("query", ["format=glb", "format=png&quality=final&samples=4096"])
+def test_who_leaves_the_stream_frees_the_processor_within_a_second(
+    service: Service, query: str
+) -> None:
+    began = {worker.pid: cpu_seconds(worker) for worker in service.workers()}
+    with (
+        service.client() as client,
+        client.stream(
+            "POST", f"/v1/render?{query}", headers=STREAM, content=large_program(3000)
+        ) as response,
+    ):
+        next(events(response))
+        time.sleep(0.5)
+    time.sleep(1.0)
+    left = {worker.pid: cpu_seconds(worker) for worker in service.workers() if worker.pid in began}
+    time.sleep(0.5)
+    for worker in service.workers():
+        if worker.pid in left:
+            assert cpu_seconds(worker) - left[worker.pid] < 0.1

@@ -1,0 +1,1 @@
+"""Pictures as they should look, and how near to them we are."""

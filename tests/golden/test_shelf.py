@@ -1,0 +1,82 @@
+"""Every shape in every material and quality, beside pictures that somebody looked at."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+
+import flip_evaluator
+import httpx
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.arrays import Floats
+from tests.golden.shelf import (
+    COLUMNS,
+    MATERIALS,
+    QUALITIES,
+    ROWS,
+    SHAPES,
+    document,
+    path,
+    query,
+)
+from tests.service import running_service
+
+SEEN = 0.03
+"""Mean difference of one shape's part of a picture by FLIP (Andersson et al. 2020: 0 is the same,
+1 is black against white as they alternate on a screen) that nobody sees."""
+
+
+@pytest.fixture(scope="module", params=["osmesa", "egl"])
+def client(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[httpx.Client]:
+    """A client of a service that draws with the platform."""
+    folder = tmp_path_factory.mktemp(request.param)
+    with (
+        running_service(folder, gl_platform=request.param, workers=1) as service,
+        service.client() as client,
+    ):
+        yield client
+
+
+def pixels(picture: Image.Image) -> Floats:
+    return np.asarray(picture.convert("RGB"), dtype=np.float32) / 255
+
+
+def differences(expected: Floats, found: Floats) -> dict[str, float]:
+    """How different each shape looks, by FLIP."""
+    each, _, _ = flip_evaluator.evaluate(expected, found, "LDR", applyMagma=False)
+    parts = [
+        part.mean()
+        for row in np.array_split(each, ROWS, axis=0)
+        for part in np.array_split(row, COLUMNS, axis=1)
+    ]
+    return dict(zip(SHAPES, parts, strict=True))
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+@pytest.mark.parametrize("material", MATERIALS)
+def test_every_shape_looks_as_it_should(
+    client: httpx.Client, material: str, quality: str, request: pytest.FixtureRequest
+) -> None:
+    if quality == "final" and "egl" in request.node.name:
+        return  # not drawn with OpenGL
+    response = client.post(query(quality), json=document(material))
+    assert response.status_code == 200, response.text
+    found = pixels(Image.open(io.BytesIO(response.content)))
+    expected = pixels(Image.open(path(material, quality)))
+    assert found.shape == expected.shape
+    seen = {name: error for name, error in differences(expected, found).items() if error > SEEN}
+    assert not seen
+
+
+def test_the_measure_sees_another_colour_and_another_shape() -> None:
+    plastic = pixels(Image.open(path("plastic", "draft")))
+    assert max(differences(plastic, plastic).values()) == 0
+    other = pixels(Image.open(path("stone", "draft")))
+    assert min(differences(plastic, other).values()) > SEEN
+    swapped = np.roll(plastic, plastic.shape[1] // COLUMNS, axis=1)
+    assert min(differences(plastic, swapped).values()) > SEEN
