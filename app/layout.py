@@ -16,6 +16,7 @@ from app.hyperedges.routing import Routing
 from app.hyperedges.woven import Previous
 from app.notations.loader import load_notation
 from app.output.clearance_numbers import Verdict
+from app.placement.flat import flattened, plane_of
 from app.placement.place import place
 from app.placement.placement import Placement
 from app.program.model import Program
@@ -55,6 +56,8 @@ def lay_out(
     placement = place(program, load_notation(program.notation))
     progress("laying out hyperedges", 0.2)
     wishes = program.layout
+    if wishes.dimensions == 2:
+        return _lay_out_flat(program, placement)
     routing = route(
         placement,
         curves=wishes.curves or _usual_curves(program),
@@ -68,10 +71,25 @@ def lay_out(
     return Layout(program, placement, routing)
 
 
+def _lay_out_flat(program: Program, placement: Placement) -> Layout:
+    """A drawing like the paper's first figure: its curves, all in one plane above the items."""
+    flat = flattened(placement)
+    wishes = program.layout
+    routing = route(
+        flat,
+        curves="symbolic" if wishes.curves == "symbolic" else "prose",
+        fidelity="paper",
+        closest="plane",
+        clearance=None,
+        join_heights=np.full(len(flat.radii), plane_of(flat)),
+    )
+    return Layout(program, flat, routing)
+
+
 def judge(layout: Layout) -> Verdict | None:
-    """What is proven about distances; None where the document wants no clearance."""
+    """What is proven about distances; None where the document wants no clearance, or is flat."""
     clearance = layout.program.layout.clearance
-    if clearance is None:
+    if clearance is None or layout.program.layout.dimensions == 2:
         return None
     certificate = certify(layout.routing, layout.placement, clearance)
     return Verdict(certificate, find_pinches(layout.routing))

@@ -44,7 +44,7 @@ class Service:
     def workers(self) -> list[psutil.Process]:
         """Its worker processes."""
         children = psutil.Process(self.process.pid).children()
-        return [child for child in children if "app.jobs.worker" in child.cmdline()]
+        return [child for child in children if _is_worker(child)]
 
     def busy_worker(self, spent: dict[int, float]) -> psutil.Process | None:
         """The worker that has computed since ``spent`` (CPU seconds by process) was noted."""
@@ -54,9 +54,19 @@ class Service:
         return None
 
 
+def _is_worker(process: psutil.Process) -> bool:
+    try:
+        return "app.jobs.worker" in process.cmdline()
+    except psutil.NoSuchProcess:  # or a zombie, which is one of these
+        return False
+
+
 def cpu_seconds(process: psutil.Process) -> float:
     """What it has computed so far."""
-    times = process.cpu_times()
+    try:
+        times = process.cpu_times()
+    except psutil.NoSuchProcess:  # or a zombie, which is one of these
+        return 0.0
     return float(times.user + times.system)
 
 

@@ -73,7 +73,7 @@ def vertex_color(kind: Kind, color: Floats) -> Floats:
     """
     if kind.is_glass:
         clear = 1.0 - kind.transmission * (1.0 - color)
-        return np.asarray(np.clip(clear, 0.0, 1.0) ** 0.25)
+        return np.asarray(np.clip(clear, 0.0, 1.0) ** 0.15)
     return color if not kind.is_lit or kind.metallic else color * PAPER
 
 

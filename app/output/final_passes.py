@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from app.arrays import Floats, Singles
+from app.arrays import Singles
 from app.output.effort import Effort
 from app.output.final_scene import FinalScene, sensor
 from app.scene.scene import Camera
@@ -24,7 +24,7 @@ PASSES = (1, 3, 4, 8)
 TILE_PIXELS = 1 << 20
 """Drawn at once: more would not be quicker, and would take gigabytes."""
 
-GUIDE_SAMPLES = 8
+GUIDE_SAMPLES = 4
 """For what guides the denoiser: it costs little, since no light is followed."""
 
 
@@ -51,13 +51,12 @@ class Sampled:
         return float(np.sqrt(spread.mean() / (self.passes - 1)))
 
 
-def passes_of(effort: Effort, samples: int) -> Iterator[int]:
+def passes_of(samples: int) -> Iterator[int]:
     """How many samples each pass takes, ``samples`` in all.
 
-    >>> list(passes_of(Effort(), 22))
+    >>> list(passes_of(22))
     [1, 3, 4, 8, 6]
     """
-    del effort
     left = samples
     for count in itertools.chain(PASSES, itertools.repeat(PASSES[-1])):
         if left <= 0:
@@ -91,7 +90,7 @@ class Sampler:
             sensor(self.renderer, self.camera, (self.width, self.height), window)
             for window in windows
         ]
-        for number, count in enumerate(passes_of(effort, samples)):
+        for number, count in enumerate(passes_of(samples)):
             started = time.monotonic()
             light = np.empty((*shape, 4), np.float32)
             for tile, (window, eye) in enumerate(zip(windows, sensors, strict=True)):
@@ -158,8 +157,3 @@ class Sampler:
 def _seed(seed: int, number: int, tile: int) -> int:
     """Of one tile in one pass: no two are alike (Knuth's multiplicative hash)."""
     return (seed * 2654435761 + number * 40503 + tile * 2246822519 + 1) % (1 << 31)
-
-
-def clean(mean: Floats) -> Singles:
-    """As the denoiser takes it."""
-    return np.ascontiguousarray(mean, dtype=np.float32)

@@ -55,6 +55,8 @@ def final_scene(renderer: Any, scene: Scene) -> FinalScene:
             "type": "path",
             "max_depth": GLASS_BOUNCES if glass else BOUNCES,
             "rr_depth": 4,
+            # Then the sky is not seen, and the background is; but what shines would not be either.
+            "hide_emitters": all(kind.is_lit for kind in groups),
         },
         "studio": {"type": "envmap", "bitmap": radiance, "to_world": upright},
     }
@@ -93,6 +95,8 @@ def sensor(
     }
     if camera.vertical_angle is not None:
         parts["type"] = "perspective"
+        parts["principal_point_offset_x"] = camera.shift[0] / 2
+        parts["principal_point_offset_y"] = -camera.shift[1] / 2
         parts["fov_axis"] = "y"
         parts["fov"] = float(np.degrees(camera.vertical_angle))
     else:

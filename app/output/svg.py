@@ -110,7 +110,9 @@ class _Drawing:
         lines = Lines.of(self.routing, self.projection)
         surfaces = depths_of(self.scene, self.projection, frozenset({"item"}))
         before = lines.before(surfaces)
-        gaps = lines.under(self.program.style.halo)
+        tubes = depths_of(self.scene, self.projection, frozenset({"hyperedge"}))
+        shown = before & lines.before(tubes, slack=2.0)
+        shown &= ~lines.under(self.program.style.halo)
         starts = lines.starts[self.routing.segment_starts]
         sums = np.add.reduceat(lines.places[:, 2], starts[:-1]) / np.maximum(np.diff(starts), 1)
         for number in np.argsort(-sums, kind="stable").tolist():
@@ -118,8 +120,7 @@ class _Drawing:
             color = self._color(self.nodes[("hyperedge", hyperedge.id)])
             first, last = self.routing.segment_starts[number : number + 2]
             pieces = "".join(
-                self._band(lines, segment, before & ~gaps, before, color)
-                for segment in range(first, last)
+                self._band(lines, segment, shown, before, color) for segment in range(first, last)
             )
             yield f"<g {_names('hyperedge', number, hyperedge)}>{_title(hyperedge)}{pieces}</g>"
 

@@ -60,15 +60,19 @@ class Lines:
         """Of which segment each place is, (p,)."""
         return np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
 
-    def before(self, depths: Floats) -> Flags:
-        """Whether each place (p,) is before the surfaces in a depth buffer (height, width)."""
+    def before(self, depths: Floats, slack: float = 0.0) -> Flags:
+        """Whether each place (p,) is before the surfaces in a depth buffer (height, width).
+
+        A tube that is less than its radius behind a surface touches it; ``slack`` are more radii,
+        for surfaces that may be the tube's own.
+        """
         height, width = depths.shape
         column = np.clip(self.places[:, 0].astype(np.int64), 0, width - 1)
         row = np.clip(self.places[:, 1].astype(np.int64), 0, height - 1)
         inside = (self.places[:, :2] >= 0).all(axis=1)
         inside &= (self.places[:, 0] < width) & (self.places[:, 1] < height)
         nearest = np.where(inside, depths[row, column], np.inf)
-        return np.asarray(self.places[:, 2] - self.radii <= nearest)
+        return np.asarray(self.places[:, 2] - (1.0 + slack) * self.radii <= nearest)
 
     def under(self, halo: float) -> Flags:
         """Whether each place (p,) is within the gap where the band passes under another.

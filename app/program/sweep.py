@@ -11,7 +11,7 @@ from typing import Any
 
 from pydantic import JsonValue
 
-from app.errors import Fault, InvalidSweep
+from app.errors import DocumentError, Fault, InvalidSweep
 from app.program.model import Program
 from app.program.reading import read_program
 from app.settings import Settings
@@ -58,8 +58,7 @@ def parse_axis(text: str) -> Axis:
 def vary(program: Program, axes: Sequence[Axis], settings: Settings) -> list[list[Program]]:
     """The variations: a row for each value of the second axis, a column for each of the first.
 
-    Raises `InvalidSweep` where the document has no such place, and `InvalidDocument` or
-    `InconsistentDocument` where a value is wrong there.
+    Raises `InvalidSweep` where the document has no such place, or a value is wrong there.
     """
     document = program.model_dump(mode="json", by_alias=True, exclude_unset=True)
     across, down = axes[0], axes[1] if len(axes) > 1 else None
@@ -72,9 +71,16 @@ def vary(program: Program, axes: Sequence[Axis], settings: Settings) -> list[lis
         for other in across.values:
             cell = copy.deepcopy(row)
             _put(cell, across.pointer, other)
-            cells.append(read_program(json.dumps(cell).encode(), settings))
+            cells.append(_read(cell, settings))
         rows.append(cells)
     return rows
+
+
+def _read(document: Any, settings: Settings) -> Program:
+    try:
+        return read_program(json.dumps(document).encode(), settings)
+    except DocumentError as error:
+        raise InvalidSweep(error.faults) from error
 
 
 def _values(listed: str) -> Iterator[JsonValue]:

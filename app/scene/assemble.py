@@ -9,7 +9,7 @@ import numpy as np
 from app.arrays import Floats
 from app.notations.notation import Notation
 from app.placement.placement import Placement
-from app.program.model import Program
+from app.program.model import Program, View
 from app.scene.boxes import boxes
 from app.scene.camera import Farthest, axes_from, frame
 from app.scene.color import linear_of, srgb_of
@@ -62,17 +62,23 @@ def assemble(
         node, box = _ground(bounds, background, materials)
         ground = Reach.of([node], box[None]).farthest
         nodes.append(node)
-    axes = axes_from(program.view.from_)
+    view = program.view if program.layout.dimensions == 3 else _from_above(program.view)
+    axes = axes_from(view.from_)
     return Scene(
         name=program.name or "",
         nodes=tuple(nodes),
         materials=tuple(materials),
         lights=three_point(axes),
-        camera=frame(farthest, program.view, aspect, ground),
+        camera=frame(farthest, view, aspect, ground),
         background=None if background is None else _triple(linear_of(background)),
         bounds=bounds,
         crowd=crowd,
     )
+
+
+def _from_above(view: View) -> View:
+    """How a flat drawing is seen, whatever the document says of direction and projection."""
+    return view.model_copy(update={"from_": (0.0, 0.0, 1.0), "projection": "orthographic"})
 
 
 def _boxes(nodes: Sequence[Node]) -> Floats:

@@ -93,6 +93,7 @@ def path(material: str, quality: str) -> Path:
 
 def main() -> None:
     """Draw all of them, or only those whose names contain an argument."""
+    PICTURES.mkdir(exist_ok=True)
     with (
         TemporaryDirectory() as folder,
         running_service(Path(folder), gl_platform="osmesa") as service,
