@@ -59,9 +59,8 @@ def test_the_same_frames_make_the_same_files() -> None:
 
 def test_what_is_transparent_stays_so_in_webp_and_turns_white_in_mp4() -> None:
     clear = [Image.new("RGBA", (32, 32), (0, 0, 0, 0))] * 2
-    assert (
-        Image.open(io.BytesIO(write_webp(clear, 2, 1.0))).convert("RGBA").getpixel((5, 5))[3] == 0
-    )  # type: ignore[index]
+    webp = Image.open(io.BytesIO(write_webp(clear, 2, 1.0)))
+    assert np.asarray(webp.convert("RGBA"))[..., 3].max() == 0
     with av.open(io.BytesIO(write_mp4(clear, 2, 1.0))) as film:
         assert next(film.decode(video=0)).to_ndarray(format="rgb24").min() > 250
 

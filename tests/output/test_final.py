@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from app.arrays import Floats
 from app.output.draft import draw
@@ -95,7 +96,7 @@ def test_noise_falls_with_samples_and_ends_the_work_where_it_may() -> None:
 
 def test_previews_come_and_progress_rises() -> None:
     shares: list[float] = []
-    shown = []
+    shown: list[Image.Image] = []
     final = draw_final(
         scene_of(RED),
         *SIZE,
