@@ -7,9 +7,9 @@
     │   ├── UnreadableDocument      it is not JSON at all
     │   ├── InvalidDocument         it is JSON, but does not follow the schema
     │   ├── InconsistentDocument    it follows the schema, but contradicts itself
+    │   │   └── ImpossibleSweep     what is to be varied is not in it, or not by such values
     │   ├── DocumentTooLarge        it has more of something than the limits allow
-    │   ├── Unprintable             something in it has no closed body
-    │   └── InvalidSweep            a parameter to be varied is not in it, or not to be read
+    │   └── Unprintable             something in it has no closed body
     ├── UnknownName                 a format, notation, palette or material that does not exist
     ├── PictureTooLarge             more pixels than the limits allow
     ├── RendererUnavailable         no way to draw on this machine; says what to install
@@ -70,16 +70,16 @@ class InconsistentDocument(DocumentError):
     """The document follows its schema, but its parts contradict each other."""
 
 
+class ImpossibleSweep(InconsistentDocument):
+    """The document has no such variations as are asked for."""
+
+
 class DocumentTooLarge(DocumentError):
     """The document exceeds a limit of this service."""
 
 
 class Unprintable(DocumentError):
     """Something in the document has no closed body that could be printed."""
-
-
-class InvalidSweep(DocumentError):
-    """A sweep that cannot be read, or that names a place that the document does not have."""
 
 
 class UnknownName(TubeloomError):

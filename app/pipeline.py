@@ -21,6 +21,7 @@ from app.formats import registry
 from app.layout import Preview, Progress, judge, lay_out, silent
 from app.output.draft import draw_draft
 from app.output.gltf import write_glb, write_gltf
+from app.output.gltf_motion import Animation
 from app.output.gltf_packing import Packing
 from app.output.media import SceneFormat
 from app.output.numbers import layout_numbers
@@ -151,11 +152,12 @@ def _sweeping(
 def _write(staged: Staged, options: RenderOptions) -> bytes:
     scene = staged.scene
     packing = Packing(options.compress, options.merge)
+    animation = None if options.motion is None else Animation(options.motion, options.seconds)
     match options.format:
         case SceneFormat.GLB:
-            return write_glb(scene, packing)
+            return write_glb(scene, packing, animation)
         case SceneFormat.GLTF:
-            return write_gltf(scene, packing)
+            return write_gltf(scene, packing, animation)
         case SceneFormat.STL:
             return write_stl(scene, options.parts, options.scale)
         case SceneFormat.THREE_MF:

@@ -12,6 +12,7 @@ if [ "${1:-}" = test ]; then
   has_library libOSMesa.so || lacks+=(osmesa)
   has_library libEGL.so.1 && has_library libEGL_mesa || lacks+=(egl)
   command -v node >/dev/null && command -v npm >/dev/null || lacks+=(node)
+  command -v chromium >/dev/null || lacks+=(chromium)
 elif [ "${1:-}" = bench ]; then
   command -v neato >/dev/null && command -v sfdp >/dev/null || lacks+=(graphviz)
 elif ! has_library libOSMesa.so && ! has_library libEGL_mesa; then
@@ -44,6 +45,7 @@ for part in "${lacks[@]}"; do
       done
       ;;
     egl) packages+=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri) ;;
+    chromium) packages+=(chromium) ;;
     graphviz) packages+=(graphviz) ;;
     node) packages+=(nodejs npm) ;;
   esac

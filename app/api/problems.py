@@ -22,9 +22,9 @@ from app.errors import (
     DeadlineExceeded,
     DocumentError,
     DocumentTooLarge,
+    ImpossibleSweep,
     InconsistentDocument,
     InvalidDocument,
-    InvalidSweep,
     Overloaded,
     PictureTooLarge,
     RendererUnavailable,
@@ -81,7 +81,7 @@ KINDS: Mapping[type[Exception], Kind] = {
     InconsistentDocument: Kind(422, "inconsistent-document", "The document contradicts itself."),
     DocumentTooLarge: Kind(413, "document-too-large", "The document exceeds a limit."),
     Unprintable: Kind(422, "unprintable", "Something in the document cannot be printed."),
-    InvalidSweep: Kind(422, "invalid-sweep", "The document cannot be varied like this."),
+    ImpossibleSweep: Kind(422, "impossible-sweep", "The document has no such variations."),
     UnknownName: Kind(422, "unknown-name", "The document names something that does not exist."),
     PictureTooLarge: Kind(422, "picture-too-large", "The picture would have too many pixels."),
     RendererUnavailable: Kind(503, "renderer-unavailable", "This machine cannot draw."),
@@ -102,7 +102,7 @@ def problem_response(request: Request, error: Exception) -> Response:
     """The problem that ``error`` is to a client, in JSON or as the picture that it asked for."""
     details = problem_of(request, error)
     body, media_type = json.dumps(details, ensure_ascii=False).encode(), MEDIA_TYPE
-    if request.query_params.get("errors") == "image":
+    if b"errors=image" in request.scope.get("query_string", b""):
         body, media_type = problem_picture(details, request.query_params)
     return Response(
         body, status_code=details["status"], media_type=media_type, headers=_headers(error)

@@ -1,84 +1,61 @@
-"""Frames as files that move: animated WebP, and MP4."""
+"""Frames as a film, each encoded as soon as it is drawn."""
 
 from __future__ import annotations
 
-import io
-from collections.abc import Iterable
-from fractions import Fraction
-from typing import cast
+from collections.abc import Callable, Iterable, Iterator
+from typing import TypeAlias
 
-import numpy as np
 from PIL import Image
 
-WEBP_QUALITY = 80
+from app.output.mp4 import TICKS, encode_mp4
+from app.output.webp import encode_webp
 
-WEBP_EFFORT = 2
-"""0 to 6: more takes three times as long for a tenth less."""
+Progress: TypeAlias = Callable[[str, float], None]
 
-CODEC = "libvpx-vp9"
-"""Free of royalties, and played by every browser; the encoder's licence is BSD's."""
-
-CODEC_OPTIONS = {"crf": "24", "b": "0", "deadline": "good", "cpu-used": "5", "row-mt": "1"}
+PAPER = (255, 255, 255)
+"""What lies behind transparent frames in a film that cannot be transparent."""
 
 
-def write_webp(frames: Iterable[Image.Image], count: int, seconds: float) -> bytes:
-    """``count`` frames in ``seconds``, again and again."""
-    pictures = list(frames)
-    file = io.BytesIO()
-    pictures[0].save(
-        file,
-        "WEBP",
-        save_all=True,
-        append_images=pictures[1:],
-        duration=max(round(1000 * seconds / count), 1),
-        loop=0,
-        quality=WEBP_QUALITY,
-        method=WEBP_EFFORT,
-    )
-    return file.getvalue()
+def _silent(_stage: str, _share: float) -> None:
+    pass
 
 
-def write_mp4(frames: Iterable[Image.Image], count: int, seconds: float) -> bytes:
-    """``count`` frames in ``seconds``, as VP9. What is transparent turns white.
+def write_webp(
+    frames: Iterable[Image.Image], count: int, seconds: float, progress: Progress = _silent
+) -> bytes:
+    """``count`` frames of one size as a WebP that goes round in so many seconds, for ever.
 
-    A picture with an odd side is a pixel larger, for colours are kept for two by two pixels.
+    Transparent frames (RGBA) stay so. ``progress`` is told the share of the frames that are there,
+    after each, and may raise to end the work. Raises `PictureTooLarge` beyond 16,383 pixels a side.
     """
-    import av
-    from av.video.reformatter import ColorRange, Colorspace
-    from av.video.stream import VideoStream
-
-    file = io.BytesIO()
-    rate = Fraction(count / seconds).limit_denominator(1000)
-    stream: VideoStream | None = None
-    with av.open(file, "w", format="mp4") as container:
-        for picture in frames:
-            even = _even(picture)
-            if stream is None:
-                stream = cast("VideoStream", container.add_stream(CODEC, rate, CODEC_OPTIONS))
-                stream.width, stream.height = even.size
-                stream.pix_fmt = "yuv420p"
-                stream.codec_context.colorspace = Colorspace.ITU709
-                stream.codec_context.color_range = ColorRange.MPEG
-            rgb = av.VideoFrame.from_ndarray(np.asarray(even), format="rgb24")
-            frame = rgb.reformat(format="yuv420p", dst_colorspace=Colorspace.ITU709)
-            container.mux(stream.encode(frame))
-        if stream is not None:
-            container.mux(stream.encode(None))
-    return file.getvalue()
+    ends = [round(1000 * seconds * (number + 1) / count) for number in range(count)]
+    durations = [end - start for start, end in zip([0, *ends], ends, strict=False)]
+    return encode_webp(_counted(frames, count, progress), durations)
 
 
-def _even(picture: Image.Image) -> Image.Image:
-    if picture.mode == "RGBA":
-        paper = Image.new("RGBA", picture.size, "white")
-        picture = Image.alpha_composite(paper, picture).convert("RGB")
-    width, height = (side + side % 2 for side in picture.size)
-    if (width, height) == picture.size:
-        return picture
-    # The last row and column once more.
-    found = Image.new("RGB", (width, height))
-    found.paste(picture.crop((picture.width - 1, 0, picture.width, picture.height)), (width - 1, 0))
-    found.paste(
-        picture.crop((0, picture.height - 1, picture.width, picture.height)), (0, height - 1)
-    )
-    found.paste(picture, (0, 0))
-    return found
+def write_mp4(
+    frames: Iterable[Image.Image], count: int, seconds: float, progress: Progress = _silent
+) -> bytes:
+    """``count`` frames of one size as an MP4 of so many seconds, in AV1, without sound.
+
+    All else as in `write_webp`, but films are not transparent, nor do they go round by themselves.
+    Raises `RendererUnavailable` where Pillow has no encoder.
+    """
+    told = _counted(frames, count, progress)
+    return encode_mp4(map(_opaque, told), max(round(TICKS * seconds / count), 1))
+
+
+def _counted(
+    frames: Iterable[Image.Image], count: int, progress: Progress
+) -> Iterator[Image.Image]:
+    for number, frame in enumerate(frames, start=1):
+        yield frame
+        progress("encoding", min(number / count, 1.0))
+
+
+def _opaque(frame: Image.Image) -> Image.Image:
+    if frame.mode != "RGBA":
+        return frame.convert("RGB")
+    paper = Image.new("RGB", frame.size, PAPER)
+    paper.paste(frame, mask=frame.getchannel("A"))
+    return paper

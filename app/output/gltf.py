@@ -6,7 +6,8 @@ import struct
 from binascii import b2a_base64
 
 from app.errors import DocumentTooLarge, Fault
-from app.output.gltf_document import describe
+from app.output.gltf_document import Document, describe
+from app.output.gltf_motion import Animation, describe_moving
 from app.output.gltf_packing import Packing
 from app.scene.scene import Scene
 
@@ -19,13 +20,13 @@ JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 PLAIN = Packing()
 
 
-def write_glb(scene: Scene, packing: Packing = PLAIN) -> bytes:
-    """The scene as binary glTF (media type ``model/gltf-binary``).
+def write_glb(scene: Scene, packing: Packing = PLAIN, animation: Animation | None = None) -> bytes:
+    """The scene as binary glTF (media type ``model/gltf-binary``), moving if there is an animation.
 
     Equal meshes are written once. Colours are linear and lengths in document units; one root
     node turns z up to y up. Every node of the scene keeps its name and its extras.
     """
-    document = describe(scene, packing)
+    document = _described(scene, packing, animation)
     text = document.text()
     text += b" " * (-len(text) % 4)
     length = document.packed.buffer.length
@@ -41,11 +42,17 @@ def write_glb(scene: Scene, packing: Packing = PLAIN) -> bytes:
     return b"".join([struct.pack("<4sII", b"glTF", 2, total), *chunks])
 
 
-def write_gltf(scene: Scene, packing: Packing = PLAIN) -> bytes:
+def write_gltf(scene: Scene, packing: Packing = PLAIN, animation: Animation | None = None) -> bytes:
     """The scene as one JSON document (media type ``model/gltf+json``).
 
     All else is as in `write_glb`.
     """
-    document = describe(scene, packing)
+    document = _described(scene, packing, animation)
     buffer = b2a_base64(b"".join(document.packed.buffer.pieces), newline=False)
     return document.text(b',"uri":"data:application/octet-stream;base64,%b"' % buffer)
+
+
+def _described(scene: Scene, packing: Packing, animation: Animation | None) -> Document:
+    if animation is None:
+        return describe(scene, packing)
+    return describe_moving(scene, packing, animation)

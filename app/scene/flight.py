@@ -18,7 +18,7 @@ smooth, so that a path along it is."""
 GAP = 1.06
 """How many times farther from the middle than its surface every camera is."""
 
-HIGH, LOW, LOWER = (-0.9, 1.05, 1.2), (-0.75, 0.26, 0.12), (0.8, 0.2, 0.08)
+HIGH, LOW, LOWER = (-0.9, 1.05, 1.35), (-0.75, 0.26, 0.12), (0.8, 0.2, 0.08)
 """Where the flight goes: azimuth from the usual one, and elevation, in radians; and the distance
 from the middle over the usual one, for the latter two the room before the nearest that may be.
 The scene is passed low, along its front."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -88,3 +90,12 @@ def test_large_pictures_of_few_triangles_take_samples_and_of_many_are_doubled() 
 def test_the_largest_pictures_are_never_doubled() -> None:
     assert sampling(4096, 4096, 10_000) == SAMPLED
     assert sampling(4096, 4096, 10_000_000) == PLAIN
+
+
+@pytest.mark.parametrize("camera", [from_above(4.0), from_front()])
+def test_a_shift_moves_the_picture_and_turns_nothing(camera: Camera) -> None:
+    still = frame(camera, AS_IT_IS, CUBE, aspect=4 / 3)
+    moved = frame(replace(camera, shift=(0.25, -0.5)), AS_IT_IS, CUBE, aspect=4 / 3)
+    for point in CUBE:
+        expected = project(still, list(point)) - [0.25, -0.5, 0]
+        np.testing.assert_allclose(project(moved, list(point)), expected, atol=1e-12)
