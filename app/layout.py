@@ -10,13 +10,14 @@ import numpy as np
 
 from app.arrays import Floats, Indices
 from app.hyperedges.clearance.certificate import certify
+from app.hyperedges.flat import route_flat
 from app.hyperedges.pinches import find_pinches
 from app.hyperedges.route import route
 from app.hyperedges.routing import Routing
 from app.hyperedges.woven import Previous
 from app.notations.loader import load_notation
 from app.output.clearance_numbers import Verdict
-from app.placement.flat import flattened, plane_of
+from app.placement.flat import flattened
 from app.placement.place import place
 from app.placement.placement import Placement
 from app.program.model import Program
@@ -50,14 +51,17 @@ def lay_out(
     """The layout that the document's ``layout`` wishes for.
 
     With the layout of a ``previous`` state of the program, hyperedges of the same id keep their
-    curves to the last bit, unless their attachments moved or something new is in their way.
+    curves to the last bit, unless their attachments moved or something new is in their way. In a
+    flat drawing they go where they would without any others.
     """
     progress("placing items", 0.1)
     placement = place(program, load_notation(program.notation))
     progress("laying out hyperedges", 0.2)
     wishes = program.layout
     if wishes.dimensions == 2:
-        return _lay_out_flat(program, placement)
+        flat = flattened(placement, program)
+        curves = wishes.curves or _usual_curves(program)
+        return Layout(program, flat, route_flat(flat, curves=curves, fidelity=wishes.fidelity))
     routing = route(
         placement,
         curves=wishes.curves or _usual_curves(program),
@@ -71,25 +75,10 @@ def lay_out(
     return Layout(program, placement, routing)
 
 
-def _lay_out_flat(program: Program, placement: Placement) -> Layout:
-    """A drawing like the paper's first figure: its curves, all in one plane above the items."""
-    flat = flattened(placement)
-    wishes = program.layout
-    routing = route(
-        flat,
-        curves="symbolic" if wishes.curves == "symbolic" else "prose",
-        fidelity="paper",
-        closest="plane",
-        clearance=None,
-        join_heights=np.full(len(flat.radii), plane_of(flat)),
-    )
-    return Layout(program, flat, routing)
-
-
 def judge(layout: Layout) -> Verdict | None:
-    """What is proven about distances; None where the document wants no clearance, or is flat."""
+    """What is proven about distances; None where the document wants no clearance."""
     clearance = layout.program.layout.clearance
-    if clearance is None or layout.program.layout.dimensions == 2:
+    if clearance is None:
         return None
     certificate = certify(layout.routing, layout.placement, clearance)
     return Verdict(certificate, find_pinches(layout.routing))

@@ -13,6 +13,7 @@ from app.notations.loader import load_notation
 from app.output.shells import refuse_too_many
 from app.program.model import Program
 from app.scene.assemble import assemble
+from app.scene.camera import view_of
 from app.scene.detail import tolerances
 from app.scene.scene import Scene
 from app.tubes.patches import patch_tubes
@@ -105,4 +106,4 @@ def _tolerance(layout: Layout, aspect: float, height: int | None) -> float | Flo
     finest = TUBE_TOLERANCE * float(routing.radii.min(initial=1.0))
     if height is None or not program.hyperedges:
         return finest
-    return tolerances(layout.placement, routing, program.view, aspect, height, finest)
+    return tolerances(layout.placement, routing, view_of(program), aspect, height, finest)

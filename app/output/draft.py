@@ -3,26 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from concurrent.futures import Future
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PIL import Image
 
-from app.arrays import Floats
+from app.arrays import Floats, Singles
 from app.errors import RendererUnavailable
-from app.output.draft_light import lighting
 from app.output.draft_scene import Normalization, draft_scene
-from app.output.draft_view import PLAIN, Frame, Pixels, Sampling, Tiling, frame, sampling, tiling
-from app.output.gl_context import with_renderer
+from app.output.draft_stage import stage
+from app.output.draft_view import MOST_SIDE, Pixels, frame, sampling, tiling
+from app.output.gl_context import begin_with_renderer, with_renderer
 from app.output.gl_platform import draft_problem
-from app.output.png import encode_png
+from app.output.png import encode_pixels, encode_png
 from app.scene.scene import Camera, Light, Material, Node, Primitive, Scene
 from app.solids.mesh import Mesh
 
-__all__ = ["draft_problem", "draw_draft", "draw_pixel", "draw_views"]
+if TYPE_CHECKING:
+    from app.output.draft_renderer import DraftRenderer
 
-TOGETHER = 6
-"""Pictures that are drawn at once: some megabytes each."""
+__all__ = ["depths", "draft_problem", "draw_draft", "draw_pixel", "draw_views"]
 
 
 def draw_draft(scene: Scene, width: int, height: int) -> bytes:
@@ -32,7 +33,10 @@ def draw_draft(scene: Scene, width: int, height: int) -> bytes:
     shadows on it: away from them the background is exact, and there is no rim to be seen.
     Raises `RendererUnavailable` where this machine has no OpenGL.
     """
-    return encode_png(draw(scene, width, height, sampling(width, height, _triangles(scene))))
+    (pixels,) = _drawn(scene, [scene.camera], width, height, sampling(width, height))
+    if scene.background is None:
+        return encode_png(_picture(scene, pixels))
+    return encode_pixels(pixels, channels=3)
 
 
 def draw_views(
@@ -40,38 +44,41 @@ def draw_views(
 ) -> Iterator[Image.Image]:
     """The scene from each of ``cameras``, as `draw_draft` would draw it, in turn.
 
-    The light stays where it is. Several pictures are drawn at once, so that shadows are drawn once
-    for them.
+    The light stays where it is: so it is reckoned with once, and the scene is loaded once. While
+    one picture is looked at the next is drawn.
     """
-    how = sampling(width, height, _triangles(scene))
-    is_clear = any(material.base_color[3] < 1.0 for material in scene.materials)
-    together = 1 if is_clear else TOGETHER
-    for first in range(0, len(cameras), together):
-        yield from _pictures(scene, cameras[first : first + together], width, height, how)
+    for pixels in _drawn(scene, cameras, width, height, sampling(width, height)):
+        yield _picture(scene, pixels)
 
 
-def draw(scene: Scene, width: int, height: int, how: Sampling) -> Image.Image:
-    """As `draw_draft`, but pixels, and as smooth as ``how`` says."""
-    return next(_pictures(scene, [scene.camera], width, height, how))
+def depths(scene: Scene, width: int, height: int) -> Floats:
+    """How far away from the camera is what is seen, (height, width), in document units.
+
+    Along the camera's axis, at the middle of each pixel, the first row being the highest; infinite
+    where there is nothing. Without the ground; what is translucent counts as opaque, and tubes
+    have no halos. Raises `RendererUnavailable` where this machine has no OpenGL.
+    """
+    normalization = Normalization.of(scene)
+    draft = draft_scene(scene, normalization)
+    if draft.bounds is None:
+        return np.full((height, width), np.inf)
+    whole = frame(scene.camera, normalization, draft.corners, width / height)
+    tiles = tiling(width, height, MOST_SIDE)
+    frames = list(tiles.frames(whole))
+    size = tiles.width, tiles.height
+
+    def draw(renderer: DraftRenderer) -> list[Singles]:
+        with renderer.loaded(stage(draft, [], 1)) as loaded:
+            return [renderer.depths(loaded, part, size) for part in frames]
+
+    seen = tiles.joined(with_renderer(draw))
+    return whole.distances(seen) * normalization.size
 
 
-def _pictures(
-    scene: Scene, cameras: Sequence[Camera], width: int, height: int, how: Sampling
-) -> Iterator[Image.Image]:
-    for pixels in _draw(scene, cameras, width * how.scale, height * how.scale, how):
-        size = pixels.shape[1], pixels.shape[0]
-        if scene.background is None:
-            # Scaled while colours are multiplied by opacity: else the edges would turn dark.
-            picture = Image.frombytes("RGBa", size, pixels.tobytes())
-        else:
-            picture = Image.frombytes("RGB", size, pixels.tobytes(), "raw", "RGBX")
-        if how.scale > 1:
-            picture = picture.resize((width, height), Image.Resampling.BICUBIC)
-        yield picture.convert("RGBA") if scene.background is None else picture
-
-
-def _triangles(scene: Scene) -> int:
-    return sum(len(primitive.mesh.faces) for node in scene.nodes for primitive in node.primitives)
+def draw(scene: Scene, width: int, height: int, samples: int, side: int = MOST_SIDE) -> Image.Image:
+    """As `draw_draft`, but a picture, of so many samples in a pixel, in tiles of this ``side``."""
+    (pixels,) = _drawn(scene, [scene.camera], width, height, samples, side)
+    return _picture(scene, pixels)
 
 
 def draw_pixel() -> None:
@@ -79,48 +86,62 @@ def draw_pixel() -> None:
 
     For a process that draws: it loads OpenGL. Raises `RendererUnavailable` where nothing comes.
     """
-    picture = draw(_TEST_CARD, 1, 1, PLAIN)
+    picture = draw(_TEST_CARD, 1, 1, samples=4)
+    encode_png(picture)
     if picture.getpixel((0, 0)) == (0, 0, 0):
         raise RendererUnavailable("OpenGL starts on this machine, but draws nothing.")
 
 
-def _draw(
-    scene: Scene, cameras: Sequence[Camera], width: int, height: int, how: Sampling
-) -> list[Pixels]:
+def _drawn(
+    scene: Scene,
+    cameras: Sequence[Camera],
+    width: int,
+    height: int,
+    samples: int,
+    side: int = MOST_SIDE,
+) -> Iterator[Pixels]:
+    """One picture for each camera; the next is drawn while one is looked at."""
     background = _clear_color(scene)
-    light = lighting(scene.lights)
     normalization = Normalization.of(scene)
-    draft = draft_scene(replace(scene, camera=cameras[0]), normalization, light.sun)
-    pictures = [np.zeros((height, width, 4), dtype=np.uint8) for _ in cameras]
+    draft = draft_scene(scene, normalization)
     if draft.bounds is None:
-        for pixels in pictures:
-            pixels[:] = np.round(background * 255)
-        return pictures
-    tiles = tiling(width, height, how.tile_side)
-    corners = list(tiles.corners())
-    wholes = [frame(camera, normalization, draft.corners, width / height) for camera in cameras]
-    drawn = with_renderer(
-        lambda renderer: renderer.draw(
-            draft,
-            light,
-            background,
-            [_tile(whole, corner, tiles, width, height) for whole in wholes for corner in corners],
-            size=(tiles.width, tiles.height),
-            samples=how.samples,
+        blank = np.round(background * 255).astype(np.uint8)
+        yield from (np.tile(blank, (height, width, 1)) for _ in cameras)
+        return
+    lit = stage(draft, scene.lights, max(width, height))
+    tiles = tiling(width, height, side)
+    size = tiles.width, tiles.height
+    loaded = with_renderer(lambda renderer: renderer.load(lit))
+
+    def begun(camera: Camera) -> Future[Pixels]:
+        whole = frame(camera, normalization, draft.corners, width / height)
+        return begin_with_renderer(
+            lambda renderer: tiles.joined(
+                [
+                    renderer.draw(loaded, part, background, size, samples)
+                    for part in tiles.frames(whole)
+                ]
+            )
         )
-    )
-    places = ((pixels, corner) for pixels in pictures for corner in corners)
-    for (pixels, (left, top)), tile in zip(places, drawn, strict=True):
-        place = pixels[top : top + tiles.height, left : left + tiles.width]
-        place[:] = tile[: place.shape[0], : place.shape[1]]
-    return pictures
+
+    try:
+        waiting: Future[Pixels] | None = None
+        for camera in cameras:
+            following = begun(camera)
+            if waiting is not None:
+                yield waiting.result()
+            waiting = following
+        if waiting is not None:
+            yield waiting.result()
+    finally:
+        with_renderer(lambda renderer: renderer.unload(loaded))
 
 
-def _tile(whole: Frame, corner: tuple[int, int], tiles: Tiling, width: int, height: int) -> Frame:
-    left, top = corner
-    return whole.window(
-        left / width, top / height, (left + tiles.width) / width, (top + tiles.height) / height
-    )
+def _picture(scene: Scene, pixels: Pixels) -> Image.Image:
+    size = pixels.shape[1], pixels.shape[0]
+    if scene.background is None:
+        return Image.frombytes("RGBa", size, pixels.data).convert("RGBA")
+    return Image.frombytes("RGB", size, pixels.data, "raw", "RGBX")
 
 
 def _clear_color(scene: Scene) -> Floats:

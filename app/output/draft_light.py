@@ -38,6 +38,11 @@ class Lighting:
         """Toward the light that casts shadows (3,), if one does."""
         return self.toward[0] if self.shadows else None
 
+    @property
+    def on_the_ground(self) -> float:
+        """Luminance of what falls on the ground where nothing casts a shadow."""
+        return float((self.at(np.array([[0.0, 0.0, 1.0]])) @ _LUMINANCE)[0])
+
     def at(self, normals: Floats) -> Floats:
         """Light that falls on unshadowed white paper with ``normals`` (n, 3): (n, 3)."""
         direct = np.clip(normals @ self.toward.T, 0.0, None) @ self.radiance
@@ -82,20 +87,19 @@ class ShadowCamera:
 
 
 def shadow_camera(
-    toward: Floats, casters: Sequence[Singles], edge: float, margin: float = 0.0
+    toward: Floats, casters: Singles, edge: float, margin: float = 0.0
 ) -> ShadowCamera:
     """The view from where ``toward`` (3,) points, as tight around ``casters`` as it goes.
 
-    ``casters`` are positions, each (v, 3). What they cover keeps the share ``edge`` of the map,
+    ``casters`` are positions (v, 3). What they cover keeps the share ``edge`` of the map,
     and ``margin`` in the world, away from its border.
     """
     back = toward / np.linalg.norm(toward)
     side = np.cross([0.0, 1.0, 0.0] if abs(back[2]) > 0.99 else [0.0, 0.0, 1.0], back)
     side /= np.linalg.norm(side)
     axes = np.array([side, np.cross(back, side), -back])
-    seen = [positions @ axes.T.astype(np.float32) for positions in casters]
-    low = np.min([place.min(axis=0) for place in seen], axis=0).astype(np.float64)
-    high = np.max([place.max(axis=0) for place in seen], axis=0).astype(np.float64)
+    seen = axes.astype(np.float32) @ casters.T
+    low, high = (np.asarray(end, dtype=np.float64) for end in (seen.min(axis=1), seen.max(axis=1)))
     around = np.array([margin, margin, 0.0])
     share = np.array([edge, edge, 0.01])
     extent = np.maximum(high - low + 2 * around, 1e-4) / (1 - 2 * share)

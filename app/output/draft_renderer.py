@@ -1,311 +1,231 @@
-"""pyrender's renderer with our own light: shaders, shadows that fit, and any antialiasing.
+"""Draws draft scenes: first what is seen at each sample, then the light on that.
 
-Importing this imports pyrender and OpenGL: `app.output.gl_platform.choose_platform` comes first,
-and everything here belongs to the one thread that owns the context.
+Passes: a map of what the sun sees, and one of how high items are; the shells of tubes that have
+halos; surfaces, as no more than normal and row for each of four samples in a pixel; what is
+translucent, as lists; and at last the picture, in which samples of one surface are shaded once.
+
+Importing this imports OpenGL: `app.output.gl_platform.choose_platform` comes first, and everything
+here belongs to the one thread that owns the context.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
-import pyrender
 from OpenGL import GL
-from pyrender.constants import ProgramFlags, RenderFlags
-from pyrender.shader_program import ShaderProgramCache
-from scipy.ndimage import gaussian_filter
 
-from app.arrays import Floats
-from app.output.draft_light import Lighting, ShadowCamera, shadow_camera
-from app.output.draft_scene import Batch, DraftScene
-from app.output.draft_view import Frame, Pixels
-from app.output.gl_buffers import (
-    fill_texture,
-    framebuffer,
-    read_depths,
-    read_pixels,
-    smooth_texture,
-)
+from app.arrays import Floats, Singles
+from app.output.draft_lists import USUAL, Lists
+from app.output.draft_loading import Loaded
+from app.output.draft_maps import LightMaps
+from app.output.draft_scene import Section
+from app.output.draft_stage import Stage
+from app.output.draft_textures import Grains
+from app.output.draft_view import Frame, Pixels, Uniform
+from app.output.gl_buffers import Shape, Target, begin_depth, read_depths, read_pixels
+from app.output.gl_programs import program
 
-SUN_TEXELS = 2048
-"""Fixed by pyrender. Fitted to the scene, a texel is smaller than a pixel of usual pictures."""
+TABLE, SUN, SKY, SURFACES, DEPTHS, ALBEDOS, SHELLS, SHELL_DEPTHS, GRAIN, HEADS = range(10)
+"""Units of textures: no two kinds may share one, so each has its own."""
 
-SKY_TEXELS = 256
-"""What it holds is blurred over the width of an item: more would not be seen."""
-
-BLURS = 0.25, 0.8
-"""How far the near and the wide darkness beside an item go, in shares of the scene's reach."""
-
-_SHADERS = Path(__file__).with_name("shaders")
-
-_OPAQUE = pyrender.MetallicRoughnessMaterial(name="opaque")
-_TRANSLUCENT = pyrender.MetallicRoughnessMaterial(name="translucent", alphaMode="BLEND")
-_CATCHER = pyrender.MetallicRoughnessMaterial(name="shadow catcher", alphaMode="BLEND")
+_UNITS: dict[str, Uniform] = {
+    "table": TABLE,
+    "sun_map": SUN,
+    "sky_map": SKY,
+    "surfaces": SURFACES,
+    "depths": DEPTHS,
+    "albedos": ALBEDOS,
+    "shells": SHELLS,
+    "shell_depths": SHELL_DEPTHS,
+    "grain": GRAIN,
+    "first_nodes": HEADS,
+}
 
 
-class _FrameCamera(pyrender.Camera):  # type: ignore[misc]  # pyrender has no types
-    """A camera whose projection is given: that of a tile is not symmetric."""
+_LIGHT = ("LIGHTS", "SUN_CASTS", "CONTACTS", "METALS", "COATS", "PLAIN")
+"""Definitions that shaders of light know."""
 
-    def __init__(self, projection: Floats) -> None:
-        super().__init__()
-        self.projection = projection
-
-    def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Floats:
-        """The projection, whatever the size."""
-        del width, height
-        return self.projection
+_NOTHING = np.zeros(4, dtype=np.uint32)
 
 
-class DraftRenderer(pyrender.Renderer):  # type: ignore[misc]  # pyrender has no types
-    """Draws draft scenes into the current context, one after another.
-
-    pyrender keeps buffers, programs and passes. Overridden are its shaders; its shadow cameras,
-    which are several times wider than the scene; its order of drawing, which is by the origins
-    of meshes; its blending, wrong where the background is transparent; and its framebuffer,
-    always of four samples, which reads depth back each time.
-    """
-
-    # Of the picture that is being drawn.
-    _scene: DraftScene
-    _lighting: Lighting
-    _shadow_cameras: dict[Any, ShadowCamera]
-    _eye: Floats
+class DraftRenderer:
+    """Draws into the current context, one picture after another."""
 
     def __init__(self) -> None:
-        super().__init__(1, 1)
-        self._program_cache = ShaderProgramCache(shader_dir=str(_SHADERS))
-        self._sun = pyrender.DirectionalLight(name="sun")
-        self._sky = pyrender.DirectionalLight(name="sky")
-        self._sky.shadow_texture = pyrender.Texture(
-            width=SKY_TEXELS, height=SKY_TEXELS, source_channels="D", data_format=GL.GL_FLOAT
-        )
-        self._empty = self._stage(np.zeros(4))
-        self._heights = smooth_texture()
-        self._samples = self._allocated_samples = 1
-        self._main_fb_dims: tuple[int, int] = (0, 0)
+        self._maps = LightMaps()
+        self._grains = Grains()
+        self._lists = Lists()
+        self._targets: dict[str, Target] = {}
+        self._mapped: Loaded | None = None
+        self._most_samples = int(GL.glGetIntegerv(GL.GL_MAX_INTEGER_SAMPLES))
+        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
+
+    def load(self, stage: Stage) -> Loaded:
+        """Give the scene to OpenGL; `unload` takes it back."""
+        return Loaded(stage)
+
+    @contextmanager
+    def loaded(self, stage: Stage) -> Iterator[Loaded]:
+        """For a while."""
+        loaded = self.load(stage)
+        try:
+            yield loaded
+        finally:
+            self.unload(loaded)
+
+    def unload(self, loaded: Loaded) -> None:
+        """Forget the scene."""
+        if self._mapped is loaded:
+            self._mapped = None
+        loaded.delete()
 
     def draw(
         self,
-        scene: DraftScene,
-        lighting: Lighting,
+        loaded: Loaded,
+        frame: Frame,
         background: Floats,
-        frames: Sequence[Frame],
-        *,
         size: tuple[int, int],
         samples: int,
-    ) -> list[Pixels]:
-        """One picture of ``size`` (width, height) for each of ``frames``.
+    ) -> Pixels:
+        """The picture, (height, width, 4), of ``size`` (width, height), from top to bottom.
 
-        ``background`` (4,) is sRGB multiplied by opacity, and opacity; ``samples`` are those
-        of each pixel.
+        ``background`` (4,) and what comes back are sRGB multiplied by opacity, and opacity;
+        ``samples`` are those of each pixel.
         """
-        self.viewport_width, self.viewport_height = size
-        self._samples = min(samples, int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)))
-        self._scene, self._lighting = scene, lighting
-        self._shadow_cameras = self._fit_shadow_cameras()
-        stage = self._stage(background)
-        for batches, role, material in (
-            (scene.items, "item", _OPAQUE),
-            (scene.hyperedges, "hyperedge", _OPAQUE),
-            (scene.catcher, "catcher", _CATCHER),
-            (scene.translucent, "translucent", _TRANSLUCENT),
-        ):
-            for batch in batches:
-                order = f"{len(stage.mesh_nodes):06}"
-                stage.add(pyrender.Mesh([_primitive(batch, material)], name=role), name=order)
-        try:
-            return list(self._draw_frames(stage, frames))
-        finally:
-            self._update_context(self._empty, RenderFlags.NONE)  # lets go of the meshes
-
-    def _stage(self, background: Floats) -> Any:
-        stage = pyrender.Scene(bg_color=background)
-        stage.add(self._sun)
-        stage.add(self._sky)
-        return stage
-
-    def _draw_frames(self, stage: Any, frames: Sequence[Frame]) -> Iterator[Pixels]:
-        flags = RenderFlags.OFFSCREEN | RenderFlags.SHADOWS_DIRECTIONAL
-        for frame in frames:
-            camera = stage.add(_FrameCamera(frame.projection), pose=np.linalg.inv(frame.view))
-            stage.main_camera_node = camera
-            self._eye = frame.eye
-            yield self.render(stage, flags)
-            stage.remove_node(camera)
-            flags = RenderFlags.OFFSCREEN  # the shadows are those of the first frame
-
-    def _fit_shadow_cameras(self) -> dict[Any, ShadowCamera]:
-        cameras: dict[Any, ShadowCamera] = {}
-        scene = self._scene
-        if self._lighting.sun is not None:
-            casters = [batch.positions for batch in scene.casters]
-            cameras[self._sun] = shadow_camera(self._lighting.sun, casters, edge=8 / SUN_TEXELS)
-        if scene.items and scene.reach > 0.0:
-            cameras[self._sky] = shadow_camera(
-                np.array([0.0, 0.0, 1.0]),
-                [batch.positions for batch in scene.items],
-                edge=1 / SKY_TEXELS,
-                margin=3 * scene.reach,
-            )
-        return cameras
-
-    # What pyrender calls.
-
-    def _sorted_mesh_nodes(self, scene: Any) -> list[Any]:
-        return sorted(scene.mesh_nodes, key=lambda node: node.name)
-
-    def _get_light_cam_matrices(
-        self, scene: Any, light_node: Any, flags: int
-    ) -> tuple[Floats, Floats]:
-        del scene, flags
-        return np.eye(4), self._shadow_cameras[light_node.light].clip_matrix
-
-    def _shadow_mapping_pass(self, scene: Any, light_node: Any, flags: int) -> None:
-        light = light_node.light
-        if light not in self._shadow_cameras:
-            return
-        casters = {"item"} if light is self._sky else {"item", "hyperedge", "translucent"}
-        with _only(scene.meshes, casters):
-            super()._shadow_mapping_pass(scene, light_node, flags)
-        if light is self._sky:
-            self._spread_heights()
-
-    def _configure_shadow_mapping_viewport(self, light: Any, flags: int) -> None:
-        super()._configure_shadow_mapping_viewport(light, flags)
-        texture = light.shadow_texture  # bound by pyrender
-        GL.glViewport(0, 0, texture.width, texture.height)
-        for name, value in (
-            (GL.GL_TEXTURE_COMPARE_MODE, GL.GL_COMPARE_REF_TO_TEXTURE),
-            (GL.GL_TEXTURE_COMPARE_FUNC, GL.GL_LEQUAL),
-            (GL.GL_TEXTURE_MAG_FILTER, GL.GL_LINEAR),
-            (GL.GL_TEXTURE_MIN_FILTER, GL.GL_LINEAR),
-            (GL.GL_TEXTURE_WRAP_S, GL.GL_CLAMP_TO_BORDER),  # whose depth 1 is in the light
-            (GL.GL_TEXTURE_WRAP_T, GL.GL_CLAMP_TO_BORDER),
-        ):
-            GL.glTexParameteri(GL.GL_TEXTURE_2D, name, value)
-
-    def _spread_heights(self) -> None:
-        """Read back what the sky sees, and blur it: near and wide."""
-        camera = self._shadow_cameras[self._sky]
-        depths = read_depths(SKY_TEXELS)
-        heights = (depths - camera.matrix[2, 3]) / camera.matrix[2, 2]
-        heights[depths == 1.0] = self._scene.floor
-        width = self._scene.reach * SKY_TEXELS / camera.extent[1::-1]
-        blurred = [gaussian_filter(heights, share * width, mode="nearest") for share in BLURS]
-        fill_texture(self._heights, np.stack(blurred, axis=-1))
-
-    def _get_primitive_program(self, primitive: Any, flags: int, program_flags: int) -> Any:
-        del flags
-        defines: dict[str, int] = {}
-        if program_flags & ProgramFlags.USE_MATERIAL:
-            name = "surface"
-            defines["LIGHTS"] = len(self._lighting.toward)
-            if self._sun in self._shadow_cameras:
-                defines["SUN_CASTS"] = 1
-            if self._sky in self._shadow_cameras:
-                defines["CONTACTS"] = 1
-            if primitive.material is _CATCHER:
-                defines["CATCHER"] = 1
-        else:
-            name = "shadow"
-            if primitive.material is _TRANSLUCENT:
-                defines["SIEVE"] = 1
-        program = self._program_cache.get_program(f"{name}.vert", f"{name}.frag", defines=defines)
-        if not program._in_context():  # noqa: SLF001 (as pyrender does here)
-            program._add_to_context()  # noqa: SLF001
-        return program
-
-    def _bind_lighting(self, scene: Any, program: Any, node: Any, flags: int) -> None:
-        del scene, node, flags
-        light = self._lighting
-        uniforms: dict[str, Floats | int | float] = {
-            "eye": self._eye,
-            "sky": light.sky,
-            "earth": light.earth,
-            "reach": self._scene.reach,
-        }
-        for number, (toward, radiance) in enumerate(zip(light.toward, light.radiance, strict=True)):
-            uniforms[f"toward[{number}]"] = toward
-            uniforms[f"radiance[{number}]"] = radiance
-        for name, camera in (("sun", self._sun), ("sky", self._sky)):
-            if camera in self._shadow_cameras:
-                uniforms[f"{name}_matrix"] = self._shadow_cameras[camera].matrix
-        if self._sun in self._shadow_cameras:
-            extent = self._shadow_cameras[self._sun].extent
-            uniforms["sun_texel"] = float(extent[:2].max()) / SUN_TEXELS
-        for name, value in uniforms.items():
-            program.set_uniform(name, value)
-        # Two kinds of sampler may not share a unit, not even where neither is used.
-        self._bind_texture(self._sun.shadow_texture, "sun_map", program)
-        unit = self._get_next_active_texture()
-        GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
-        GL.glBindTexture(GL.GL_TEXTURE_2D, self._heights)
-        program.set_uniform("sky_map", unit)
-
-    def _bind_and_draw_primitive(
-        self, primitive: Any, pose: Floats, program: Any, flags: int
-    ) -> None:
-        if flags & RenderFlags.DEPTH_ONLY:
-            super()._bind_and_draw_primitive(primitive, pose, program, flags)
-            return
-        blended = primitive.material is not _OPAQUE
-        GL.glDepthMask(GL.GL_FALSE if blended else GL.GL_TRUE)
-        GL.glEnable(GL.GL_BLEND)
-        GL.glBlendFunc(GL.GL_ONE, GL.GL_ONE_MINUS_SRC_ALPHA if blended else GL.GL_ZERO)
-        GL.glEnable(GL.GL_CULL_FACE)
-        GL.glCullFace(GL.GL_BACK)
-        primitive._bind()  # noqa: SLF001 (as pyrender does here)
-        GL.glDrawElements(GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None)
-        primitive._unbind()  # noqa: SLF001
-        GL.glDepthMask(GL.GL_TRUE)
-
-    def _configure_main_framebuffer(self) -> None:
-        size = self.viewport_width, self.viewport_height
-        if self._main_fb_dims == size and self._allocated_samples == self._samples:
-            return
-        self._delete_main_framebuffer()
-        self._main_fb, self._main_cb, self._main_db = framebuffer(size, 1)
-        self._main_fb_ms, self._main_cb_ms, self._main_db_ms = (
-            (self._main_fb, self._main_cb, self._main_db)
-            if self._samples == 1
-            else framebuffer(size, self._samples)
+        if self._mapped is not loaded:
+            self._maps.draw(loaded)
+            self._mapped = loaded
+        has_ground = float(loaded.scene.ground is not None)
+        shot = _Shot(
+            loaded,
+            size,
+            max(1, min(samples, self._most_samples)),
+            {
+                **_UNITS,
+                **self._maps.numbers,
+                **loaded.numbers,
+                **frame.numbers(size),
+                "ground": frame.ground_depths(loaded.scene.floor, size) * has_ground,
+                "rows": size[1],
+                "background": background,
+            },
         )
-        self._main_fb_dims, self._allocated_samples = size, self._samples
+        loaded.table.bind(TABLE)
+        self._maps.bind(SUN, SKY)
+        if "HALOS" in loaded.defines:
+            self._draw_shells(shot)
+        self._draw_surfaces(shot)
+        if "CLEARS" in loaded.defines:
+            self._draw_lists(shot)
+        return self._draw_picture(shot)
 
-    def _read_main_framebuffer(self, scene: Any, flags: int) -> Pixels:
-        del scene, flags
-        width, height = self._main_fb_dims
-        if self._samples > 1:
-            GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._main_fb_ms)
-            GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._main_fb)
-            GL.glBlitFramebuffer(
-                0, 0, width, height, 0, 0, width, height, GL.GL_COLOR_BUFFER_BIT, GL.GL_NEAREST
-            )
-        return read_pixels(self._main_fb, width, height)
+    def depths(self, loaded: Loaded, frame: Frame, size: tuple[int, int]) -> Singles:
+        """Depths (height, width) from 0 to 1 of the nearest surfaces, from top to bottom."""
+        shot = _Shot(loaded, size, 0, frame.numbers(size))
+        self._target("depths", shot, ())
+        begin_depth()
+        shot.use("place.vert", "place.frag")
+        loaded.vertices.draw(0, len(loaded.scene.faces))
+        return read_depths(*size)[::-1]
+
+    def _draw_shells(self, shot: _Shot) -> None:
+        target = self._target("shells", shot, (GL.GL_R32UI,))
+        begin_depth()
+        GL.glClearBufferuiv(GL.GL_COLOR, 0, _NOTHING)
+        for part in shot.parts:
+            if part.shows == "hyperedge":
+                shot.draw(part, "shell.vert", "shell.frag")
+        target.bind(0, SHELLS)
+        target.bind(1, SHELL_DEPTHS)
+
+    def _draw_surfaces(self, shot: _Shot) -> None:
+        has_albedos = "ALBEDOS" in shot.loaded.defines
+        formats = (GL.GL_RG32UI, GL.GL_RGBA8) if has_albedos else (GL.GL_RG32UI,)
+        target = self._target("surfaces", shot, formats)
+        begin_depth()
+        GL.glClearBufferuiv(GL.GL_COLOR, 0, _NOTHING)
+        for part in shot.parts:
+            if not part.is_clear:
+                self._grains.bind(part.texture, GRAIN)
+                shot.draw(part, "surface.vert", "octahedron.glsl+surface.frag", "ALBEDOS")
+        target.bind(0, SURFACES)
+        target.bind(len(formats), DEPTHS)
+        if has_albedos:
+            target.bind(1, ALBEDOS)
+
+    def _draw_lists(self, shot: _Shot) -> None:
+        """Draw them, and once more where they were longer than there was room for."""
+        room = USUAL
+        while True:
+            self._lists.begin(shot.size, shot.samples, room)
+            GL.glDisable(GL.GL_DEPTH_TEST)
+            for part in shot.parts:
+                if part.is_clear:
+                    self._grains.bind(part.texture, GRAIN)
+                    shot.draw(part, "surface.vert", "lists.glsl+light.glsl+glass.frag", *_LIGHT)
+            count = self._lists.end()
+            if count <= self._lists.room:
+                break
+            room = count
+        self._lists.bind(HEADS)
+
+    def _draw_picture(self, shot: _Shot) -> Pixels:
+        self._target("picture", shot, (GL.GL_RGBA8,), is_plain=True)
+        GL.glDisable(GL.GL_DEPTH_TEST)
+        fragment = "octahedron.glsl+light.glsl+picture.frag"
+        if "CLEARS" in shot.loaded.defines:
+            fragment = "lists.glsl+layers.glsl+" + fragment
+        shot.use("screen.vert", fragment, *_LIGHT, "ALBEDOS", "CLEARS")
+        GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
+        return read_pixels(*shot.size)
+
+    def _target(
+        self, name: str, shot: _Shot, formats: tuple[int, ...], *, is_plain: bool = False
+    ) -> Target:
+        """The target of that name, to draw into from now on; made anew where it does not fit."""
+        samples, depth_format = shot.samples, GL.GL_DEPTH_COMPONENT32F
+        wanted = (
+            Shape(*shot.size, formats)
+            if is_plain
+            else Shape(*shot.size, formats, depth_format, samples)
+        )
+        known = self._targets.get(name)
+        if known is None or known.shape != wanted:
+            if known is not None:
+                known.delete()
+            self._targets[name] = Target(wanted)
+        self._targets[name].begin()
+        return self._targets[name]
 
 
-@contextmanager
-def _only(meshes: set[Any], names: set[str]) -> Iterator[None]:
-    """Hide the other meshes for a while."""
-    hidden = [mesh for mesh in meshes if mesh.name not in names]
-    for mesh in hidden:
-        mesh.is_visible = False
-    try:
-        yield
-    finally:
-        for mesh in hidden:
-            mesh.is_visible = True
+@dataclass(frozen=True, slots=True, eq=False)
+class _Shot:
+    """One picture of a scene, and all that shaders are told of it."""
 
+    loaded: Loaded
+    size: tuple[int, int]
+    samples: int
+    numbers: dict[str, Uniform]
 
-def _primitive(batch: Batch, material: Any) -> Any:
-    return pyrender.Primitive(
-        positions=batch.positions,
-        normals=batch.normals,
-        texcoord_0=batch.surfaces,
-        color_0=batch.colors,
-        indices=batch.faces,
-        material=material,
-    )
+    @property
+    def parts(self) -> tuple[Section, ...]:
+        return self.loaded.scene.sections
+
+    def use(self, vertex: str, fragment: str, *defines: str, **more: int) -> None:
+        """Draw with these shaders, with those of the scene's ``defines`` that are asked for."""
+        known = self.loaded.defines
+        chosen = {name: known[name] for name in defines if name in known}
+        program(vertex, fragment, SAMPLES=self.samples, **chosen, **more).use(self.numbers)
+
+    def draw(self, part: Section, vertex: str, fragment: str, *defines: str) -> None:
+        more: dict[str, int] = {"TEXTURE": 1} if part.texture else {}
+        if part.is_clear:
+            more["CLEAR"] = 1
+        if part.shows == "hyperedge" and "HALOS" in self.loaded.defines:
+            more["HALOS"] = 1
+            fragment = "halo.glsl+" + fragment
+        self.use(vertex, fragment, *defines, **more)
+        self.loaded.vertices.draw(part.first, part.count)

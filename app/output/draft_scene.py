@@ -1,4 +1,4 @@
-"""A scene as the draft renderer wants it: few large batches, around the origin, of size one.
+"""A scene as the draft renderer wants it: one heap of triangles, around the origin, of size one.
 
 Everything is moved to the middle of the scene and divided by its size, so that a scene of
 micrometres and one of kilometres meet the same biases, distances and single-precision floats.
@@ -6,63 +6,70 @@ micrometres and one of kilometres meet the same biases, distances and single-pre
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
-from app.arrays import Faces, Floats, Singles
-from app.placement.turning import matrices
-from app.scene.scene import Camera, Material, Node, Scene
-
-MOST_VERTICES = 1 << 20
-"""Of a batch that more is added to: keeps copies small. (pyrender passes vertex numbers through
-single-precision floats, so no batch may have more than 2^24.)"""
+from app.arrays import Faces, Floats, Indices, Singles
+from app.placement.turning import UNTURNED, matrices
+from app.scene.boxes import boxes
+from app.scene.scene import Camera, Material, Node, Primitive, Scene, TextureName
+from app.scene.textures import tint
 
 OPAQUE = 0.999
 """Opacity from which a material hides what is behind it."""
 
 
-LOWEST_SUN = 0.1
-"""Sine of the height of the sun below which shadows would have no end."""
+@dataclass(frozen=True, slots=True)
+class Section:
+    """Triangles that are drawn alike: ``count`` of them from the ``first`` on."""
 
-CONTACT_REACHES = 3.0
-"""How many times its reach the darkness around an item is drawn."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Batch:
-    """Triangles that are drawn at once.
-
-    ``positions`` and ``normals`` (v, 3); ``colors`` (v, 4) linear RGB and opacity; ``surfaces``
-    (v, 2) metallic and roughness; ``faces`` (f, 3).
-    """
-
-    positions: Singles
-    normals: Singles
-    colors: Singles
-    surfaces: Singles
-    faces: Faces
+    shows: Literal["item", "hyperedge"]
+    is_clear: bool
+    texture: TextureName | None
+    first: int
+    count: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DraftScene:
-    """What is drawn, in the order in which it is drawn.
+    """What is drawn. A *row* is a primitive of a node; number 0 is none.
 
-    ``items`` and ``hyperedges`` are opaque, from near to far; ``catcher`` is a piece of the
-    ground, just large enough for every shadow on it; ``translucent`` are sorted from far to near.
-    ``bounds`` (2, 3) hold them all but the ground, and are ``None`` where there is nothing.
-    ``ground`` is its height, or ``None``. ``reach`` is how far an item darkens what stands
+    ``positions`` and ``normals`` (v, 3); ``rows`` (v,) of uint32; ``coordinates`` (v, 2) where
+    anything has a texture; ``faces`` (f, 3), sorted from near to far within each of the
+    ``sections``. ``table`` (rows, 3, 4) has for each row linear RGB and opacity; metallic,
+    roughness, clearcoat and its roughness; and the width of the halo, the radius, and whether it
+    is lit. ``boxes`` (rows - 1, 2, 3) are theirs, and ``is_item`` (rows - 1,) whether they show
+    items. ``ground`` is its height, or ``None``. ``reach`` is how far an item darkens what stands
     beside it.
     """
 
-    items: tuple[Batch, ...]
-    hyperedges: tuple[Batch, ...]
-    catcher: tuple[Batch, ...]
-    translucent: tuple[Batch, ...]
-    bounds: Floats | None
+    positions: Singles
+    normals: Singles
+    rows: Faces
+    coordinates: Singles | None
+    faces: Faces
+    sections: tuple[Section, ...]
+    table: Singles
+    boxes: Floats
+    is_item: NDArray[np.bool_]
     ground: float | None
     reach: float
+
+    @property
+    def bounds(self) -> Floats | None:
+        """Smallest and largest corner of all there is, (2, 3), without the ground."""
+        if not len(self.boxes):
+            return None
+        return np.array([self.boxes[:, 0].min(axis=0), self.boxes[:, 1].max(axis=0)])
+
+    @property
+    def corners(self) -> Floats:
+        """Those of the boxes, (p, 3): everything drawn lies between."""
+        return corners_of(self.boxes)
 
     @property
     def floor(self) -> float:
@@ -70,23 +77,6 @@ class DraftScene:
         if self.ground is not None:
             return self.ground
         return 0.0 if self.bounds is None else float(self.bounds[0, 2])
-
-    @property
-    def corners(self) -> Floats:
-        """Points (p, 3) that everything drawn lies between."""
-        if self.bounds is None:
-            return np.zeros((0, 3))
-        return np.concatenate([_corners(self.bounds), *(batch.positions for batch in self.catcher)])
-
-    @property
-    def batches(self) -> tuple[Batch, ...]:
-        """All batches, in the order in which they are drawn."""
-        return (*self.items, *self.hyperedges, *self.catcher, *self.translucent)
-
-    @property
-    def casters(self) -> tuple[Batch, ...]:
-        """Those that cast shadows."""
-        return (*self.items, *self.hyperedges, *self.translucent)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,158 +100,156 @@ class Normalization:
         return np.asarray((points - self.center) / self.size)
 
 
-def draft_scene(scene: Scene, normalization: Normalization, sun: Floats | None) -> DraftScene:
-    """Sort, move and merge the scene's triangles.
+def corners_of(around: Floats) -> Floats:
+    """The corners (8n, 3) of boxes (n, 2, 3).
 
-    ``sun`` (3,) points at the light that casts shadows, if there is one. Raises `ValueError`
-    where a vertex is not finite: one would spoil the whole picture.
+    >>> corners_of(np.array([[[0.0, 0, 0], [1, 2, 3]]])).max(axis=0)
+    array([1., 2., 3.])
     """
-    pieces = _by_depth(_pieces(scene, normalization), scene.camera)
-    opaque = [piece for piece in pieces if piece.material.base_color[3] >= OPAQUE]
-    translucent = [piece for piece in pieces if piece.material.base_color[3] < OPAQUE]
-    bounds = _bounds(pieces)
-    ground = _ground_height(scene, normalization)
-    reach = _reach([piece for piece in pieces if piece.node.shows == "item"])
-    return DraftScene(
-        items=_batches(piece for piece in opaque if piece.node.shows == "item"),
-        hyperedges=_batches(piece for piece in opaque if piece.node.shows == "hyperedge"),
-        catcher=_catcher(pieces, ground, reach, sun),
-        translucent=_batches(reversed(translucent)),
-        bounds=bounds,
-        ground=ground,
-        reach=reach,
-    )
+    ends = np.array([[i >> 2 & 1, i >> 1 & 1, i & 1] for i in range(8)])
+    return np.asarray(around[:, ends, np.arange(3)]).reshape(-1, 3)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Piece:
-    """One primitive in the draft's axes."""
+    """One primitive, and what it belongs to."""
 
     node: Node
-    positions: Singles
-    normals: Singles
-    faces: Faces
+    primitive: Primitive
     material: Material
-    bounds: Singles = field(init=False)
-
-    def __post_init__(self) -> None:
-        bounds = np.array([self.positions.min(axis=0), self.positions.max(axis=0)])
-        object.__setattr__(self, "bounds", bounds)
 
 
-def _pieces(scene: Scene, normalization: Normalization) -> list[_Piece]:
-    """Every primitive but the ground's, turned and moved."""
-    nodes = [node for node in scene.nodes if node.shows != "ground"]
-    if not nodes:
-        return []
-    _refuse_infinity(nodes)
-    turns = matrices(np.array([node.rotation for node in nodes], dtype=np.float64))
-    turns = turns.transpose(0, 2, 1).astype(np.float32)
-    places = normalization.points(np.array([node.translation for node in nodes], dtype=np.float64))
-    return [
-        _Piece(
-            node=node,
-            positions=primitive.mesh.vertices @ (turn / np.float32(normalization.size)) + place,
-            normals=primitive.mesh.normals @ turn,
-            faces=primitive.mesh.faces,
-            material=scene.materials[primitive.material],
-        )
-        for node, turn, place in zip(nodes, turns, places.astype(np.float32), strict=True)
+def draft_scene(scene: Scene, normalization: Normalization) -> DraftScene:
+    """Move, merge and sort the scene's triangles.
+
+    Raises `ValueError` where a vertex is not finite: one would spoil the whole picture.
+    """
+    pieces = [
+        _Piece(node, primitive, scene.materials[primitive.material])
+        for node in scene.nodes
+        if node.shows != "ground"
         for primitive in node.primitives
         if len(primitive.mesh.faces)
     ]
-
-
-def _refuse_infinity(nodes: Sequence[Node]) -> None:
-    for node in nodes:
-        if not all(np.isfinite(primitive.mesh.vertices).all() for primitive in node.primitives):
-            raise ValueError(f"{node.name!r} has a vertex that is not finite.")
-
-
-def _batches(pieces: Iterable[_Piece]) -> tuple[Batch, ...]:
-    return tuple(_batch(group) for group in _groups(pieces))
-
-
-def _groups(pieces: Iterable[_Piece]) -> Iterator[list[_Piece]]:
-    group: list[_Piece] = []
-    vertices = 0
-    for piece in pieces:
-        if group and vertices + len(piece.positions) > MOST_VERTICES:
-            yield group
-            group, vertices = [], 0
-        group.append(piece)
-        vertices += len(piece.positions)
-    if group:
-        yield group
-
-
-def _batch(pieces: Sequence[_Piece]) -> Batch:
-    counts = np.array([len(piece.positions) for piece in pieces])
-    starts = np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.uint32)
-    colors = np.array([piece.material.base_color for piece in pieces], dtype=np.float32)
-    surfaces = np.array(
-        [(piece.material.metallic, piece.material.roughness) for piece in pieces],
-        dtype=np.float32,
-    )
-    return Batch(
-        positions=np.concatenate([piece.positions for piece in pieces]),
-        normals=np.concatenate([piece.normals for piece in pieces]),
-        colors=np.repeat(colors, counts, axis=0),
-        surfaces=np.repeat(surfaces, counts, axis=0),
-        faces=np.concatenate(
-            [piece.faces + start for piece, start in zip(pieces, starts, strict=True)]
-        ),
+    starts = np.cumsum([0, *(len(piece.primitive.mesh.vertices) for piece in pieces)])
+    positions, normals = _placed(pieces, starts, normalization)
+    around = boxes(positions, starts).astype(np.float64) if pieces else np.zeros((0, 2, 3))
+    faces, sections = _sorted(pieces, starts, _nearest_first(around, scene.camera))
+    return DraftScene(
+        positions=positions,
+        normals=normals,
+        rows=np.repeat(np.arange(1, len(pieces) + 1, dtype=np.uint32), np.diff(starts)),
+        coordinates=_coordinates(pieces),
+        faces=faces,
+        sections=sections,
+        table=_table(pieces, scene.halo, normalization.size),
+        boxes=around,
+        is_item=np.array([piece.node.shows == "item" for piece in pieces], dtype=np.bool_),
+        ground=_ground_height(scene, normalization),
+        reach=_reach(pieces, around),
     )
 
 
-def _catcher(
-    pieces: Sequence[_Piece], ground: float | None, reach: float, sun: Floats | None
-) -> tuple[Batch, ...]:
-    """The part of the ground on which shadows of the pieces fall."""
-    if not pieces or ground is None:
-        return ()
-    corners = np.concatenate([_corners(piece.bounds) for piece in pieces])
-    places = [corners[:, :2]]
-    if sun is not None and sun[2] > LOWEST_SUN:
-        above = np.clip(corners[:, 2:] - ground, 0.0, None)
-        places.append(corners[:, :2] - above * (sun[:2] / sun[2]))
-    low = np.min(places, axis=(0, 1)) - CONTACT_REACHES * reach
-    high = np.max(places, axis=(0, 1)) + CONTACT_REACHES * reach
-    ring = np.array([low, (high[0], low[1]), high, (low[0], high[1])])
-    return (
-        Batch(
-            positions=np.column_stack([ring, np.full(4, ground)]).astype(np.float32),
-            normals=np.tile(np.array([0, 0, 1], dtype=np.float32), (4, 1)),
-            colors=np.ones((4, 4), dtype=np.float32),
-            surfaces=np.ones((4, 2), dtype=np.float32),
-            faces=np.array([[0, 1, 2], [0, 2, 3]], dtype=np.uint32),
-        ),
-    )
+_NO_PLACES = np.zeros((0, 3), dtype=np.float32)
 
 
-def _corners(bounds: Floats | Singles) -> Floats:
-    return np.array([[x, y, z] for x in bounds[:, 0] for y in bounds[:, 1] for z in bounds[:, 2]])
-
-
-def _bounds(pieces: Sequence[_Piece]) -> Floats | None:
+def _placed(
+    pieces: Sequence[_Piece], starts: Indices, normalization: Normalization
+) -> tuple[Singles, Singles]:
+    """Positions and normals of all pieces, turned and moved."""
     if not pieces:
+        return _NO_PLACES, _NO_PLACES
+    positions = np.concatenate([piece.primitive.mesh.vertices for piece in pieces])
+    normals = np.concatenate([piece.primitive.mesh.normals for piece in pieces])
+    rotations = np.array([piece.node.rotation for piece in pieces], dtype=np.float64)
+    turned = np.flatnonzero((rotations != UNTURNED).any(axis=1))
+    turns = matrices(rotations[turned]).transpose(0, 2, 1).astype(np.float32)
+    for piece, turn in zip(turned.tolist(), turns, strict=True):
+        own = slice(starts[piece], starts[piece + 1])
+        positions[own] = positions[own] @ turn
+        normals[own] = normals[own] @ turn
+    places = normalization.points(np.array([piece.node.translation for piece in pieces]))
+    positions *= np.float32(1 / normalization.size)
+    positions += np.repeat(places.astype(np.float32), np.diff(starts), axis=0)
+    if not np.isfinite(positions).all():
+        row = np.flatnonzero(~np.isfinite(positions).all(axis=1))[0]
+        name = pieces[int(np.searchsorted(starts, row, side="right")) - 1].node.name
+        raise ValueError(f"{name!r} has a vertex that is not finite.")
+    return positions, normals
+
+
+def _sorted(
+    pieces: Sequence[_Piece], starts: Indices, order: Indices
+) -> tuple[Faces, tuple[Section, ...]]:
+    """Faces of all pieces, section by section and in this order within each."""
+    members: dict[tuple[bool, bool, str], list[int]] = {}
+    for index in order.tolist():
+        piece = pieces[index]
+        is_clear = piece.material.base_color[3] < OPAQUE
+        key = is_clear, piece.node.shows == "hyperedge", _texture(piece) or ""
+        members.setdefault(key, []).append(index)
+    groups = sorted(members.items())
+    ordered = [index for _, group in groups for index in group]
+    counts = np.array([len(piece.primitive.mesh.faces) for piece in pieces], dtype=np.int64)
+    sections: list[Section] = []
+    first = 0
+    for (is_clear, is_hyperedge, _), group in groups:
+        count = int(counts[group].sum())
+        texture = _texture(pieces[group[0]])
+        shows: Literal["item", "hyperedge"] = "hyperedge" if is_hyperedge else "item"
+        sections.append(Section(shows, is_clear, texture, first, count))
+        first += count
+    if not ordered:
+        return np.zeros((0, 3), dtype=np.uint32), ()
+    faces = np.concatenate([pieces[index].primitive.mesh.faces for index in ordered])
+    faces += np.repeat(starts[ordered].astype(np.uint32), counts[ordered])[:, None]
+    return faces, tuple(sections)
+
+
+def _texture(piece: _Piece) -> TextureName | None:
+    """Only where it is known how it lies on the surface."""
+    return None if piece.primitive.mesh.coordinates is None else piece.material.texture
+
+
+def _coordinates(pieces: Sequence[_Piece]) -> Singles | None:
+    if not any(_texture(piece) for piece in pieces):
         return None
-    corners = np.array([piece.bounds for piece in pieces], dtype=np.float64)
-    return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+    return np.concatenate(
+        [
+            np.zeros((len(mesh.vertices), 2), dtype=np.float32)
+            if mesh.coordinates is None
+            else mesh.coordinates
+            for mesh in (piece.primitive.mesh for piece in pieces)
+        ]
+    )
 
 
-def _by_depth(pieces: Sequence[_Piece], camera: Camera) -> list[_Piece]:
-    """From near to far, by the farthest corner: so that what is in a tray comes before the tray.
+def _table(pieces: Sequence[_Piece], halo: float, size: float) -> Singles:
+    """See `DraftScene`; halos are so many times a radius wide, and lengths divided by ``size``."""
+    rows = [[0.0] * 12]
+    for piece in pieces:
+        material, radius = piece.material, (piece.node.radius or 0.0) / size
+        red, green, blue, opacity = material.base_color
+        if _texture(piece):
+            red, green, blue = tint((red, green, blue))
+        rows.append(
+            [
+                *(red, green, blue, opacity, material.metallic, material.roughness),
+                *(material.clearcoat, material.clearcoat_roughness),
+                *(halo * radius, radius, float(material.is_lit), 0.0),
+            ]
+        )
+    return np.array(rows, dtype=np.float32).reshape(-1, 3, 4)
 
-    Opaque pieces in this order hide the next ones before they are shaded, and take half the time;
-    translucent ones must be drawn in the opposite order.
+
+def _nearest_first(around: Floats, camera: Camera) -> Indices:
+    """The order of boxes (n, 2, 3) by their farthest corner.
+
+    So what is in a tray comes before the tray; what is drawn first hides the next before it costs.
     """
-    if not pieces:
-        return []
     away = np.subtract(camera.target, camera.position)
-    bounds = np.array([piece.bounds for piece in pieces], dtype=np.float64)
-    farthest = np.where(away > 0, bounds[:, 1], bounds[:, 0]) @ away
-    return [pieces[index] for index in np.argsort(farthest, kind="stable")]
+    farthest = np.where(away > 0, around[:, 1], around[:, 0]) @ away
+    return np.argsort(farthest, kind="stable")
 
 
 def _ground_height(scene: Scene, normalization: Normalization) -> float | None:
@@ -274,10 +262,11 @@ def _ground_height(scene: Scene, normalization: Normalization) -> float | None:
     return None
 
 
-def _reach(items: Sequence[_Piece]) -> float:
+def _reach(pieces: Sequence[_Piece], around: Floats) -> float:
     """A third of the usual width of an item, so that its neighbours are touched and no more."""
     widths: dict[str, float] = {}
-    for piece in items:
-        width = float((piece.bounds[1, :2] - piece.bounds[0, :2]).min())
-        widths[piece.node.name] = max(width, widths.get(piece.node.name, 0.0))
+    narrow = (around[:, 1, :2] - around[:, 0, :2]).min(axis=1)
+    for piece, width in zip(pieces, narrow.tolist(), strict=True):
+        if piece.node.shows == "item":
+            widths[piece.node.name] = max(width, widths.get(piece.node.name, 0.0))
     return 0.3 * float(np.median(list(widths.values()))) if widths else 0.0

@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.arrays import Floats
+from app.arrays import Floats, Singles
 from app.output.draft_scene import Normalization
 from app.scene.scene import Camera
+
+Value = TypeVar("Value", bound=np.generic)
+
+Uniform: TypeAlias = int | float | Floats
+"""What a shader is told of one thing: a number, a vector, a matrix, or a list of vectors."""
 
 Pixels: TypeAlias = NDArray[np.uint8]
 """(height, width, 4), from top to bottom: sRGB multiplied by opacity, and opacity."""
 
-ALWAYS_DOUBLED, LARGEST_DOUBLED = 1 << 20, 1 << 22
-"""Pixels of pictures that are drawn at twice their size: always, and if it is the cheaper way."""
+SAMPLES, MOST_SIDE = 4, 1280
+"""Samples in a pixel, and the pixels along a side that are drawn at once: some 100 MB."""
 
-MOST_SAMPLED = 1 << 20
-"""Triangles that are drawn with four samples to a pixel into pictures beyond these."""
+LARGEST_SAMPLED = 1 << 23
+"""Pixels of pictures that are drawn with several samples; larger ones will be seen smaller."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,6 +50,43 @@ class Frame:
         part = np.diag([scale_x, scale_y, 1.0, 1.0])
         part[:2, 3] = (1 - left - right) * scale_x, (top + bottom - 1) * scale_y
         return Frame(self.view, part @ self.projection, self.eye)
+
+    def numbers(self, size: tuple[int, int]) -> dict[str, Uniform]:
+        """What shaders must know, for a picture of ``size`` (width, height)."""
+        return {
+            "to_clip": self.projection @ self.view,
+            "to_world": self._from_window(size),
+            "eye": self.eye,
+            "pixel": 2.0 / (size[1] * float(self.projection[1, 1])),
+            "depth_rows": self.projection[2:, 2:].reshape(4),
+        }
+
+    def ground_depths(self, height: float, size: tuple[int, int]) -> Floats:
+        """(a, b, c, is it seen): depths of the ground are (a, b, c)·(x, y, 1) in the window.
+
+        A plane is one in the window too, whatever the projection.
+        """
+        a, b, c, d = np.array([0.0, 0.0, 1.0, -height]) @ self._from_window(size)
+        above = self.eye[2] - self.eye[3] * height > 0.0
+        if not above or abs(c) < 1e-12:
+            return np.zeros(4)
+        return np.array([-a / c, -b / c, -d / c, 1.0])
+
+    def _from_window(self, size: tuple[int, int]) -> Floats:
+        """Pixels and depth from 0 to 1, and 1, to places in the draft, but for a factor."""
+        width, height = size
+        to_clip = np.array(
+            [[2 / width, 0, 0, -1], [0, 2 / height, 0, -1], [0, 0, 2, -1], [0, 0, 0, 1.0]]
+        )
+        return np.asarray(np.linalg.inv(self.projection @ self.view) @ to_clip)
+
+    def distances(self, depths: Singles) -> Floats:
+        """How far along its axis is what has these ``depths`` (…) from 0 to 1; for 1, infinite."""
+        clip = 2.0 * depths.astype(np.float64) - 1.0
+        # The projection's last two rows, solved for the distance: z and w are linear in it.
+        (a, b), (c, d) = self.projection[2:, 2:]
+        away = (b - clip * d) / (a - clip * c)
+        return np.where(depths < 1.0, away, np.inf)
 
 
 def frame(camera: Camera, normalization: Normalization, points: Floats, aspect: float) -> Frame:
@@ -77,38 +119,9 @@ def frame(camera: Camera, normalization: Normalization, points: Floats, aspect: 
     return Frame(view, projection, np.append(back, 0.0))
 
 
-@dataclass(frozen=True, slots=True)
-class Sampling:
-    """How edges become smooth: drawn ``scale`` times as large, with ``samples`` in a pixel.
-
-    ``tile_side`` is the most pixels along a side that are drawn at once.
-    """
-
-    scale: int
-    samples: int
-    tile_side: int
-
-
-PLAIN = Sampling(scale=1, samples=1, tile_side=4096)
-DOUBLED = Sampling(scale=2, samples=1, tile_side=4096)
-SAMPLED = Sampling(scale=1, samples=4, tile_side=2048)
-"""Tiles take 128 MB, and are of a size that any OpenGL draws."""
-
-
-def sampling(width: int, height: int, triangles: int) -> Sampling:
-    """The smoothest that a picture of this size, of this many triangles, has time for.
-
-    Drawing at twice the size is the smoother, inside of edges too, and costs by the pixel; four
-    samples cost by the triangle. (In software, beyond a plain picture: 0.6 microseconds for each
-    pixel of the one, 2 for each triangle of the other.) A picture that is large in both ways is
-    left as it is, to be smooth when seen smaller.
-    """
-    pixels = width * height
-    if pixels <= ALWAYS_DOUBLED or (pixels <= LARGEST_DOUBLED and 4 * triangles > pixels):
-        return DOUBLED
-    if pixels <= LARGEST_DOUBLED or triangles <= MOST_SAMPLED:
-        return SAMPLED
-    return PLAIN
+def sampling(width: int, height: int) -> int:
+    """How many samples in each pixel there is time for."""
+    return SAMPLES if width * height <= LARGEST_SAMPLED else 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +131,7 @@ class Tiling:
     The last may stand over its edge: a renderer likes to keep its size.
     """
 
+    picture: tuple[int, int]
     columns: int
     rows: int
     width: int
@@ -129,15 +143,33 @@ class Tiling:
             for column in range(self.columns):
                 yield column * self.width, row * self.height
 
+    def frames(self, whole: Frame) -> Iterator[Frame]:
+        """What each tile shows, row by row."""
+        width, height = self.picture
+        for left, top in self.corners():
+            right, bottom = left + self.width, top + self.height
+            yield whole.window(left / width, top / height, right / width, bottom / height)
+
+    def joined(self, tiles: Sequence[NDArray[Value]]) -> NDArray[Value]:
+        """The picture (height, width, …) of these tiles, row by row."""
+        if len(tiles) == 1:
+            return tiles[0]
+        width, height = self.picture
+        joined = np.empty((height, width, *tiles[0].shape[2:]), dtype=tiles[0].dtype)
+        for (left, top), tile in zip(self.corners(), tiles, strict=True):
+            place = joined[top : top + self.height, left : left + self.width]
+            place[:] = tile[: place.shape[0], : place.shape[1]]
+        return joined
+
 
 def tiling(width: int, height: int, side: int) -> Tiling:
     """As few tiles as there can be with no side longer than ``side``.
 
     >>> tiling(5000, 100, 4096)
-    Tiling(columns=2, rows=1, width=2500, height=100)
+    Tiling(picture=(5000, 100), columns=2, rows=1, width=2500, height=100)
     """
     columns, rows = -(-width // side), -(-height // side)
-    return Tiling(columns, rows, -(-width // columns), -(-height // rows))
+    return Tiling((width, height), columns, rows, -(-width // columns), -(-height // rows))
 
 
 def _shift(camera: Camera) -> Floats:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -24,7 +24,12 @@ def with_renderer(draw: Callable[[DraftRenderer], Result]) -> Result:
     to a second thread, and deleting one of its renderers breaks the others. Raises
     `RendererUnavailable` where there is no OpenGL.
     """
-    return _thread().submit(lambda: draw(_renderer())).result()
+    return begin_with_renderer(draw).result()
+
+
+def begin_with_renderer(draw: Callable[[DraftRenderer], Result]) -> Future[Result]:
+    """As `with_renderer`, without waiting."""
+    return _thread().submit(lambda: draw(_renderer()))
 
 
 @lru_cache(maxsize=1)

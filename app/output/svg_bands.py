@@ -1,172 +1,223 @@
-"""Tubes as bands: where they are in the picture, and where they pass behind something."""
+"""Tubes as bands: the centre curves on the sheet with their widths, in short pieces."""
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from app.arrays import Flags, Floats, Indices
+from app.arrays import Floats, Indices
 from app.hyperedges.routing import Routing
-from app.output.projection import Projection
+from app.output.svg_projection import Projection
+from app.output.svg_strips import CIRCLE, Course, cover
 
-STEP = 4.0
-"""Pixels from one place on a curve to the next."""
+TOLERANCE = 0.06
+"""Pixels between a curve and its chords."""
 
-MOST_STEPS = 80
-"""Of one segment."""
+LARGEST_TURN = 0.26
+"""Radians between the pictures of a curve at neighbouring samples; less where tubes are thick."""
 
-SHALLOW = 0.35
-"""Sine of the flattest crossing for which gaps still grow."""
+MOST = 96
+"""Pieces of a segment."""
 
-APART = 2.5
-"""Radii between two tubes of one hyperedge from which on they cross, and do not meet."""
+ROUND = 0.4
+"""Radians: a tube whose picture turns more from sample to sample comes towards us: balls there."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Lines:
-    """Centre lines of all s segments, one after another.
+class Bands:
+    """All curves as samples, and pieces between neighbouring samples of one segment.
 
-    ``places`` (p, 3) are pixels and distance from the camera, ``halves`` (p,) half the band's
-    width in pixels, ``radii`` (p,) the tube's radius. Those of segment k are ``starts[k]`` to
-    ``starts[k + 1]``; ``hyperedges`` (s,) say whose it is.
+    Of ``course``, ``centers`` (n, 3) are x, y and nearness; ``widths`` (n,) are the tube's radius
+    in pixels, ``sides`` (n, 2) unit vectors across it; ``balls`` (n,) says where the tube is drawn
+    as balls. Piece p lies between samples ``firsts[p]`` and the next, and belongs to segment
+    ``segments[p]`` of hyperedge ``hyperedges[p]``, whose pieces are ``starts[k]`` to
+    ``starts[k + 1]``. ``radii`` (n,), document units.
     """
 
-    places: Floats
-    halves: Floats
-    radii: Floats
-    starts: Indices
+    course: Course
     hyperedges: Indices
-
-    @staticmethod
-    def of(routing: Routing, projection: Projection) -> Lines:
-        """The segments of a routing as the camera sees them."""
-        curves = routing.control_points
-        hyperedges = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
-        seen = projection(curves)[..., :2]
-        lengths = np.linalg.norm(np.diff(seen, axis=1), axis=2).sum(axis=1)
-        counts = np.clip(np.ceil(lengths / STEP), 4, MOST_STEPS).astype(np.int64) + 1
-        starts = np.concatenate([[0], np.cumsum(counts)])
-        segment = np.repeat(np.arange(len(curves)), counts)
-        t = (np.arange(starts[-1]) - starts[segment]) / (counts[segment] - 1)
-        weights = np.stack([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3], axis=1)
-        places = projection((weights[:, :, None] * curves[segment]).sum(axis=1))
-        radii = routing.radii[hyperedges[segment]]
-        return Lines(places, radii * projection.scales(places[:, 2]), radii, starts, hyperedges)
+    starts: Indices
+    segments: Indices
+    radii: Floats
 
     @property
-    def segments(self) -> Indices:
-        """Of which segment each place is, (p,)."""
-        return np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
+    def centers(self) -> Floats:
+        """Where samples are, (n, 3)."""
+        return self.course.centers
 
-    def before(self, depths: Floats, slack: float = 0.0) -> Flags:
-        """Whether each place (p,) is before the surfaces in a depth buffer (height, width).
+    @property
+    def widths(self) -> Floats:
+        """Radii (n,) in pixels."""
+        return self.course.widths
 
-        A tube that is less than its radius behind a surface touches it; ``slack`` are more radii,
-        for surfaces that may be the tube's own.
+    @property
+    def sides(self) -> Floats:
+        """Unit vectors (n, 2) across the band."""
+        return self.course.sides
+
+    @property
+    def firsts(self) -> Indices:
+        """The first sample of each piece, (p,)."""
+        return self.course.firsts
+
+    @staticmethod
+    def of(routing: Routing, view: Projection, lifts: Floats) -> Bands:
+        """Those of a routing; ``lifts`` (h,) bring hyperedges nearer, in document units."""
+        control = routing.control_points
+        hyperedge = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
+        widths = _widths(routing, hyperedge, view)
+        pieces = _pieces(control, widths, view)
+        counts = pieces + 1
+        ends = np.cumsum(counts)
+        segment = np.repeat(np.arange(len(control)), counts)
+        number = np.arange(int(ends[-1]) if len(ends) else 0) - np.repeat(ends - counts, counts)
+        t = number / pieces[segment]
+        places, tangents = _curve(control[segment], t)
+        centers = view.seen(places)
+        radii = routing.radii[hyperedge[segment]]
+        widths = view.sizes(centers[:, 2]) * radii
+        lifted = lifts[hyperedge[segment]]
+        centers[:, 2] = view.nearer(centers[:, 2], lifted)
+        along = view.seen(places + tangents * (1e-3 * radii[:, None]))[:, :2]
+        along -= view.seen(places - tangents * (1e-3 * radii[:, None]))[:, :2]
+        sides = _sides(along, centers[:, :2], segment)
+        is_piece = segment[1:] == segment[:-1]
+        firsts = np.flatnonzero(is_piece)
+        owners = hyperedge[segment[firsts]]
+        starts = np.searchsorted(owners, np.arange(len(routing.radii) + 1))
+        of_attachments = routing.attachment_counts[hyperedge]
+        begin = (ends - counts)[routing.segment_ends[:, 0] < of_attachments]
+        end = ends[routing.segment_ends[:, 1] < of_attachments] - 1
+        samples = np.concatenate([begin, end])
+        feet = np.full((2, len(firsts)), -1)
+        feet[0, np.searchsorted(firsts, begin)] = np.arange(len(begin))
+        feet[1, np.searchsorted(firsts, end - 1)] = len(begin) + np.arange(len(end))
+        course = Course(
+            centers=centers,
+            widths=widths,
+            sides=sides,
+            balls=_balls(sides, segment),
+            firsts=firsts,
+            feet=feet,
+            foot_samples=samples,
+            rims=_rims(samples, places, tangents, radii, view),
+        )
+        return Bands(course, owners, starts, segment[firsts], radii)
+
+    def triangles(self, wider: float, rise: float, view: Projection) -> Floats:
+        """Triangles (4 p, 3, 3) of all pieces, like a roof: its ridge is ``rise`` radii nearer.
+
+        ``wider`` is how wide they are, in radii.
         """
-        height, width = depths.shape
-        column = np.clip(self.places[:, 0].astype(np.int64), 0, width - 1)
-        row = np.clip(self.places[:, 1].astype(np.int64), 0, height - 1)
-        inside = (self.places[:, :2] >= 0).all(axis=1)
-        inside &= (self.places[:, 0] < width) & (self.places[:, 1] < height)
-        nearest = np.where(inside, depths[row, column], np.inf)
-        return np.asarray(self.places[:, 2] - (1.0 + slack) * self.radii <= nearest)
+        offset = self.sides * (self.widths * wider)[:, None]
+        left, right, ridge = (self.centers.copy() for _ in range(3))
+        left[:, :2] += offset
+        right[:, :2] -= offset
+        ridge[:, 2] = view.nearer(ridge[:, 2], rise * self.radii)
+        i, j = self.firsts, self.firsts + 1
+        corners = [
+            (left[i], ridge[i], ridge[j]),
+            (left[i], ridge[j], left[j]),
+            (ridge[i], right[i], right[j]),
+            (ridge[i], right[j], ridge[j]),
+        ]
+        return np.stack([np.stack(corner, axis=1) for corner in corners], axis=1).reshape(-1, 3, 3)
 
-    def under(self, halo: float) -> Flags:
-        """Whether each place (p,) is within the gap where the band passes under another.
+    def shapes(
+        self, pieces: Indices, wider: float, inset: float = 0.0, *, feet: bool = True
+    ) -> list[Floats]:
+        """Contours (k, 2), counter-clockwise by their numbers, that cover ``pieces``.
 
-        The gap is wider than the band above by ``halo`` radii of that on either side.
+        They are ``wider`` radii wide, less ``inset`` pixels, with round ends where there are
+        ``feet``.
         """
-        first = np.flatnonzero(np.diff(self.segments) == 0)
-        start, end = self.places[first], self.places[first + 1]
-        one, other, t, u = _crossings(start[:, :2], end[:, :2])
-        depth = start[:, 2]
-        slope = end[:, 2] - start[:, 2]
-        above = depth[one] + t * slope[one] < depth[other] + u * slope[other]
-        near, far = np.where(above, one, other), np.where(above, other, one)
-        s = np.where(above, u, t)
-        at_near = np.where(above, depth[one] + t * slope[one], depth[other] + u * slope[other])
-        at_far = np.where(above, depth[other] + u * slope[other], depth[one] + t * slope[one])
-        owner = self.hyperedges[self.segments]
-        thick = np.maximum(self.radii[first[near]], self.radii[first[far]])
-        counts = (owner[first[near]] != owner[first[far]]) | (at_far - at_near > APART * thick)
-        gaps = np.zeros(len(self.places), dtype=bool)
-        for i, j, share in zip(near[counts], far[counts], s[counts], strict=True):
-            self._cut(gaps, first[i], first[j], float(share), halo)
-        return gaps
-
-    def _cut(self, gaps: Flags, near: int, far: int, share: float, halo: float) -> None:
-        """Mark the places of the band at ``far`` that are too near to the one at ``near``."""
-        along = self.places[far + 1, :2] - self.places[far, :2]
-        across = self.places[near + 1, :2] - self.places[near, :2]
-        lengths = np.linalg.norm(along) * np.linalg.norm(across)
-        sine = abs(float(along[0] * across[1] - along[1] * across[0])) / max(float(lengths), 1e-12)
-        reach = self.halves[near] * (1.0 + halo) / max(sine, SHALLOW)
-        cosine = np.sqrt(max(1.0 - sine * sine, 0.0))
-        reach += self.halves[far] * cosine / max(sine, SHALLOW)
-        middle = self.places[far, :2] + share * along
-        segment = int(np.searchsorted(self.starts, far, side="right")) - 1
-        places = slice(self.starts[segment], self.starts[segment + 1])
-        away = np.linalg.norm(self.places[places, :2] - middle, axis=1)
-        gaps[places] |= away < reach
+        return cover(self.course, pieces, wider, inset, feet=feet)
 
 
-def runs(shown: Flags) -> list[tuple[int, int]]:
-    """First and last places (inclusive) of all stretches that are shown, of two places or more."""
-    edges = np.diff(np.concatenate([[0], np.asarray(shown, dtype=np.int8), [0]]))
-    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
-    return [(a, b) for a, b in zip(starts.tolist(), ends.tolist(), strict=True) if b > a]
+def _widths(routing: Routing, hyperedge: Indices, view: Projection) -> Floats:
+    """Radii (s,) of segments in pixels, at the nearest of their control points."""
+    if len(hyperedge) == 0:
+        return np.zeros(0)
+    nearest = view.seen(routing.control_points)[..., 2].max(axis=1)
+    return view.sizes(nearest) * routing.radii[hyperedge]
 
 
-def sides(places: Floats, halves: Floats) -> tuple[Floats, Floats]:
-    """The two edges (p, 2) of a band along ``places`` (p, 2)."""
-    tangents = np.gradient(places, axis=0)
-    tangents /= np.maximum(np.linalg.norm(tangents, axis=1, keepdims=True), 1e-9)
-    normals = np.stack([-tangents[:, 1], tangents[:, 0]], axis=1) * halves[:, None]
-    return places + normals, places - normals
+def _pieces(control: Floats, widths: Floats, view: Projection) -> Indices:
+    """How many pieces each segment (s, 4, 3) is cut into: Wang's formula, and small turns."""
+    if len(control) == 0:
+        return np.zeros(0, dtype=np.int64)
+    seen = view.seen(control)[..., :2]
+    second = np.diff(seen, n=2, axis=1)
+    bend = np.hypot(second[..., 0], second[..., 1]).max(axis=1)
+    legs = np.diff(seen, axis=1)
+    angles = np.unwrap(np.arctan2(legs[..., 1], legs[..., 0]), axis=1)
+    turn = np.abs(np.diff(angles, axis=1)).sum(axis=1)
+    # A side of the band is off its chord by width · turn² / 8.
+    largest = np.minimum(np.sqrt(8 * TOLERANCE / np.maximum(widths, 1e-9)), LARGEST_TURN)
+    pieces = np.maximum(np.sqrt(0.75 * bend / TOLERANCE), 1.3 * turn / largest)
+    found: Indices = np.clip(np.ceil(pieces), 1, MOST).astype(np.int64)
+    return found
 
 
-MOST_PAIRS = 4_000_000
-"""Looked at together."""
+def _curve(control: Floats, t: Floats) -> tuple[Floats, Floats]:
+    """Places and unit tangents (n, 3) at parameters (n,) of curves (n, 4, 3)."""
+    t, s = t[:, None], 1 - t[:, None]
+    p0, p1, p2, p3 = control.transpose(1, 0, 2)
+    places = s**3 * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t**3 * p3
+    tangents = s * s * (p1 - p0) + 2 * s * t * (p2 - p1) + t * t * (p3 - p2)
+    lengths = np.linalg.norm(tangents, axis=1, keepdims=True)
+    chords = p3 - p0
+    tangents = np.where(lengths > 1e-12, tangents, chords)
+    lengths = np.maximum(np.linalg.norm(tangents, axis=1, keepdims=True), 1e-12)
+    return places, tangents / lengths
 
 
-def _crossings(start: Floats, end: Floats) -> tuple[Indices, Indices, Floats, Floats]:
-    """Pairs of pieces (n, 2) to (n, 2) that cross, each once, and where on both, 0 to 1."""
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    order = np.argsort(low[:, 0], kind="stable")
-    reach = np.searchsorted(low[order, 0], high[order, 0], side="right")
-    counts = np.maximum(reach - np.arange(len(order)) - 1, 0)
-    found: list[tuple[Indices, Indices, Floats, Floats]] = []
-    edges = [0]
-    total = 0
-    for number, count in enumerate(counts.tolist()):
-        total += count
-        if total > MOST_PAIRS:
-            edges.append(number)
-            total = count
-    edges.append(len(counts))
-    for a, b in itertools.pairwise(edges):
-        part = counts[a:b]
-        one = np.repeat(np.arange(a, b), part)
-        begins = np.cumsum(part) - part
-        other = one + 1 + np.arange(len(one)) - begins[one - a]
-        i, j = order[one], order[other]
-        near = (low[i, 1] <= high[j, 1]) & (low[j, 1] <= high[i, 1])
-        found.append(_crossing(i[near], j[near], start, end))
-    one, other, t, u = (np.concatenate(column) for column in zip(*found, strict=True))
-    return one, other, t, u
+def _rims(
+    samples: Indices, places: Floats, tangents: Floats, radii: Floats, view: Projection
+) -> Floats:
+    """Round ends (f, 20, 2) of tubes around their middles, in pixels."""
+    ahead = tangents[samples]
+    other = np.where(np.abs(ahead[:, 2:]) < 0.9, [[0.0, 0.0, 1.0]], [[1.0, 0.0, 0.0]])
+    across = np.cross(ahead, other)
+    across *= (radii[samples] / np.linalg.norm(across, axis=1))[:, None]
+    up = np.cross(ahead, across)
+    rims = across[:, None] * CIRCLE[:, :1] + up[:, None] * CIRCLE[:, 1:]
+    seen = view.seen(places[samples, None] + rims)[..., :2]
+    return _turned(seen - view.seen(places[samples])[:, None, :2])
 
 
-def _crossing(
-    i: Indices, j: Indices, start: Floats, end: Floats
-) -> tuple[Indices, Indices, Floats, Floats]:
-    d, e, w = end[i] - start[i], end[j] - start[j], start[j] - start[i]
-    area = d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0]
-    safe = np.where(np.abs(area) > 1e-12, area, np.nan)
-    t = (w[:, 0] * e[:, 1] - w[:, 1] * e[:, 0]) / safe
-    u = (w[:, 0] * d[:, 1] - w[:, 1] * d[:, 0]) / safe
-    # Half open, so that a crossing at a place counts once; NaN is never within.
-    hit = (t >= 0) & (t < 1) & (u >= 0) & (u < 1)
-    return i[hit], j[hit], t[hit], u[hit]
+def _sides(along: Floats, at: Floats, segment: Indices) -> Floats:
+    """Unit vectors (n, 2) across a curve in the picture; where it points at us, by its chord."""
+    lengths = np.hypot(along[:, 0], along[:, 1])
+    weak = lengths < 1e-9
+    if weak.any():
+        last = len(at) - 1
+        before, after = (
+            np.maximum(np.arange(len(at)) - 1, 0),
+            np.minimum(np.arange(len(at)) + 1, last),
+        )
+        before = np.where(segment[before] == segment, before, np.arange(len(at)))
+        after = np.where(segment[after] == segment, after, np.arange(len(at)))
+        along = np.where(weak[:, None], at[after] - at[before] + np.array([1e-9, 0.0]), along)
+        lengths = np.hypot(along[:, 0], along[:, 1])
+    return np.column_stack([along[:, 1], -along[:, 0]]) / lengths[:, None]
+
+
+def _balls(sides: Floats, segment: Indices) -> NDArray[np.bool_]:
+    """Where (n,) the picture of a curve turns so fast that the tube must come towards us."""
+    found = np.zeros(len(sides), dtype=np.bool_)
+    if len(sides) > 1:
+        cosines = np.einsum("ni,ni->n", sides[1:], sides[:-1])
+        sharp = (cosines < np.cos(ROUND)) & (segment[1:] == segment[:-1])
+        found[1:] |= sharp
+        found[:-1] |= sharp
+    return found
+
+
+def _turned(rings: Floats) -> Floats:
+    """Convex contours (m, k, 2), all turning the same way."""
+    a, b = rings[:, 5] - rings[:, 0], rings[:, 10] - rings[:, 0]
+    area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return np.where(area[:, None, None] < 0, rings[:, ::-1], rings)

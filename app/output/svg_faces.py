@@ -1,134 +1,108 @@
-"""What of an item is drawn: faces that the camera sees, each one tone."""
+"""Items as faces of flat colour: what of them is turned to the camera, in pixels."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-import manifold3d
 import numpy as np
 
-from app.arrays import Faces, Floats
-from app.output.projection import Projection
-from app.solids.meshing import mesh_of
-from app.solids.solid import Box, Solid, Tray
-
-TONES = 5
-"""Of round things; more would look like a photograph of one."""
-
-LIGHT = np.array([-0.35, -0.45, 0.82])
-"""Toward the light: from above, the left and the front, in the world."""
+from app.arrays import Floats, Indices
+from app.output.svg_projection import Projection
+from app.output.svg_shades import Shades
+from app.solids.solid import Box, Tray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Face:
-    """Rings of pixels, each (p, 2), and how light they are, 0 to 1.
+    """A part of an item that nothing of itself can hide.
 
-    ``covers`` says that it is in front of what the item contains.
+    ``outline`` are contours (k, 2) to be filled with ``color``, turning so that x · y' - y · x' is
+    positive around what is filled; ``lines`` are drawn along them, every contour where there are
+    none. ``tones`` are what lies over it in other colours. All sides of one that ``is_polygon`` are
+    straight. ``triangles`` (t, 3, 3) say where it is,
+    for who is in front.
     """
 
-    rings: tuple[Floats, ...]
-    light: float
-    covers: bool = False
+    owner: int
+    outline: Sequence[Floats]
+    color: str
+    triangles: Floats
+    lines: Sequence[Floats] | None = None
+    tones: Sequence[tuple[str, Sequence[Floats]]] = ()
+    is_polygon: bool = False
 
 
-def faces_of(solid: Solid, rotation: Floats, center: Floats, projection: Projection) -> list[Face]:
-    """Faces of a solid that is turned by ``rotation`` (3, 3) and stands at ``center`` (3,)."""
-    match solid:
-        case Box(size=size):
-            corners = _box(np.zeros(3), np.array(size))
-            return list(_flat(corners, rotation, center, projection, covers=False))
-        case Tray():
-            return list(_tray(solid, rotation, center, projection))
-        case _:
-            return list(_round(solid, rotation, center, projection))
-
-
-def _flat(
-    quads: Floats, rotation: Floats, center: Floats, projection: Projection, *, covers: bool
-) -> Iterator[Face]:
-    """Quadrilaterals (q, 4, 3) that face the camera."""
-    world = quads @ rotation.T + center
-    normals = np.cross(world[:, 1] - world[:, 0], world[:, 2] - world[:, 0])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    front = projection.sees_front(world.mean(axis=1), normals) > 1e-9
-    for ring, light in zip(projection(world[front])[..., :2], _light(normals[front]), strict=True):
-        yield Face((ring,), float(light), covers)
-
-
-def _tray(tray: Tray, rotation: Floats, center: Floats, projection: Projection) -> Iterator[Face]:
-    """Floor and inner walls, then the walls that stand before the contents."""
-    size = np.array(tray.size)
-    inner = np.array([size[0] - 2 * tray.wall, size[1] - 2 * tray.wall, size[2] - tray.floor])
-    middle = np.array([0.0, 0.0, tray.floor / 2])
-    outside, inside = _box(np.zeros(3), size), _box(middle, inner)[:, ::-1]
-    # Of the box inside, its top is open; of the one outside, a rim is left.
-    yield from _flat(inside[:5], rotation, center, projection, covers=False)
-    walls = outside[1:5]
-    world = walls @ rotation.T + center
-    normals = np.cross(world[:, 1] - world[:, 0], world[:, 2] - world[:, 0])
-    before = projection.sees_front(world.mean(axis=1), normals) > 0
-    rim = _rim(size, inner)
-    yield from _flat(rim[~before], rotation, center, projection, covers=False)
-    yield from _flat(rim[before], rotation, center, projection, covers=True)
-    yield from _flat(outside[:5], rotation, center, projection, covers=True)
-
-
-def _round(
-    solid: Solid, rotation: Floats, center: Floats, projection: Projection
-) -> Iterator[Face]:
-    mesh = mesh_of(solid)
-    world = mesh.vertices @ rotation.T + center
-    corners = world[mesh.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
-    normals /= np.maximum(lengths, 1e-12)[:, None]
-    front = (projection.sees_front(corners.mean(axis=1), normals) > 0) & (lengths > 1e-12)
-    tones = np.round(_light(normals) * TONES).astype(np.int64)
-    seen = projection(world)[:, :2]
-    yield Face(_united(seen, mesh.faces[front]), float(tones[front].min(initial=0)) / TONES)
-    for tone in sorted(set(tones[front].tolist()))[1:]:
-        rings = _united(seen, mesh.faces[front & (tones == tone)])
-        yield Face(rings, tone / TONES)
-
-
-def _united(seen: Floats, faces: Faces) -> tuple[Floats, ...]:
-    """The outline of triangles in the picture."""
-    triangles = seen[faces]
-    one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    turn = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
-    triangles = np.where((turn < 0)[:, None, None], triangles[:, ::-1], triangles)
-    united = manifold3d.CrossSection(list(triangles), manifold3d.FillRule.NonZero)
-    return tuple(np.asarray(ring) for ring in united.simplify(0.05).to_polygons())
-
-
-def _light(normals: Floats) -> Floats:
-    """How light a surface is, 0 to 1: wrapped around, so that nothing is black."""
-    return np.asarray(0.5 + 0.5 * (normals @ (LIGHT / np.linalg.norm(LIGHT))))
-
-
-def _box(middle: Floats, size: Floats) -> Floats:
-    """Six faces (6, 4, 3) counter-clockwise from outside: below, around from the front, above."""
-    return np.asarray(_UNIT * size / 2 + middle)
-
-
-def _rim(size: Floats, inner: Floats) -> Floats:
-    top = size[2] / 2
-    signs = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-    outer = np.column_stack([signs * size[:2] / 2, np.full(4, top)])
-    within = np.column_stack([signs * inner[:2] / 2, np.full(4, top)])
-    after = np.roll(np.arange(4), -1)
-    return np.stack([outer, outer[after], within[after], within], axis=1)
-
-
-_UNIT = np.array(
+# Corners of a block: 0 to 3 around its bottom, counter-clockwise seen from above from the front
+# left one on, 4 to 7 above them; of a tray 8 to 11 inside its rim, 12 to 15 around its floor.
+_SIGNS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+_QUARTERS = tuple((k, (k + 1) % 4) for k in range(4))
+_WALLS = [(a, b, b + 4, a + 4) for a, b in _QUARTERS]
+_BOX = np.array([*_WALLS, (4, 5, 6, 7), (3, 2, 1, 0)])
+_TRAY = np.array(
     [
-        [[-1, -1, -1], [-1, 1, -1], [1, 1, -1], [1, -1, -1]],
-        [[-1, -1, -1], [1, -1, -1], [1, -1, 1], [-1, -1, 1]],
-        [[1, -1, -1], [1, 1, -1], [1, 1, 1], [1, -1, 1]],
-        [[1, 1, -1], [-1, 1, -1], [-1, 1, 1], [1, 1, 1]],
-        [[-1, 1, -1], [-1, -1, -1], [-1, -1, 1], [-1, 1, 1]],
-        [[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]],
-    ],
-    dtype=np.float64,
+        *_WALLS,
+        *((a + 4, b + 4, b + 8, a + 8) for a, b in _QUARTERS),
+        *((b + 12, a + 12, a + 8, b + 8) for a, b in _QUARTERS),
+        (12, 13, 14, 15),
+        (3, 2, 1, 0),
+    ]
 )
+_FAN = np.array([(0, 1, 2), (0, 2, 3)])
+
+
+def corners_of(block: Box | Tray) -> Floats:
+    """Corners of a block in its own axes: (8, 3) of a box, (16, 3) of a tray."""
+    x, y, z = (size / 2 for size in block.size)
+    rings = [(x, y, -z), (x, y, z)]
+    if isinstance(block, Tray):
+        wall = block.wall
+        rings += [(x - wall, y - wall, z), (x - wall, y - wall, block.floor - z)]
+    return np.concatenate(
+        [np.column_stack([_SIGNS * (a, b), np.full(4, height)]) for a, b, height in rings]
+    )
+
+
+def block_edges(block: Box | Tray) -> Indices:
+    """Pairs (e, 2) of corners between which a block has an edge."""
+    levels = range(0, 16 if isinstance(block, Tray) else 8, 4)
+    around = [(level + a, level + b) for level in levels for a, b in _QUARTERS]
+    upright = [(k, k + 4) for k in range(4)]
+    upright += [(k + 8, k + 12) for k in range(4)] if isinstance(block, Tray) else []
+    return np.array(around + upright)
+
+
+def block_faces(
+    owners: Sequence[int],
+    corners: Floats,
+    shades: Sequence[Shades],
+    projection: Projection,
+) -> list[Face]:
+    """What is to be seen of blocks alike: ``corners`` (b, 8 or 16, 3) in the world."""
+    table = _BOX if corners.shape[1] == 8 else _TRAY
+    places = corners[:, table]
+    across = np.cross(places[:, :, 2] - places[:, :, 0], places[:, :, 3] - places[:, :, 1])
+    lengths = np.linalg.norm(across, axis=-1, keepdims=True)
+    normals = np.divide(across, lengths, out=np.zeros_like(across), where=lengths > 0)
+    towards = np.einsum("bfi,bfi->bf", normals, projection.sight(places.mean(axis=2)))
+    seen = projection.seen(corners)[:, table]
+    brightness = Shades.brightness(normals)
+    faces: list[Face] = []
+    for block, number in zip(*np.nonzero(towards > 1e-9), strict=True):
+        quad = seen[block, number]
+        lines = None
+        if len(table) > 6 and 4 <= number < 8:
+            # The parts of a rim meet without a line.
+            lines = [quad[:2, :2], quad[2:, :2]]
+        faces.append(
+            Face(
+                owners[block],
+                # Seen from outside it is counter-clockwise where y points up.
+                [quad[::-1, :2]],
+                shades[block].tone(float(brightness[block, number])),
+                quad[_FAN],
+                lines,
+                is_polygon=True,
+            )
+        )
+    return faces

@@ -9,9 +9,9 @@ import numpy as np
 from app.arrays import Floats
 from app.notations.notation import Notation
 from app.placement.placement import Placement
-from app.program.model import Program, View
+from app.program.model import Program
 from app.scene.boxes import boxes
-from app.scene.camera import Farthest, axes_from, frame
+from app.scene.camera import Farthest, axes_from, frame, view_of
 from app.scene.color import linear_of, srgb_of
 from app.scene.curve_reach import CurveReach
 from app.scene.ground import disc_below, ground_color
@@ -62,7 +62,7 @@ def assemble(
         node, box = _ground(bounds, background, materials)
         ground = Reach.of([node], box[None]).farthest
         nodes.append(node)
-    view = program.view if program.layout.dimensions == 3 else _from_above(program.view)
+    view = view_of(program)
     axes = axes_from(view.from_)
     return Scene(
         name=program.name or "",
@@ -73,12 +73,8 @@ def assemble(
         background=None if background is None else _triple(linear_of(background)),
         bounds=bounds,
         crowd=crowd,
+        halo=program.style.halo,
     )
-
-
-def _from_above(view: View) -> View:
-    """How a flat drawing is seen, whatever the document says of direction and projection."""
-    return view.model_copy(update={"from_": (0.0, 0.0, 1.0), "projection": "orthographic"})
 
 
 def _boxes(nodes: Sequence[Node]) -> Floats:

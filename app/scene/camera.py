@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from app.arrays import Floats
-from app.program.model import View
+from app.program.model import Program, View
 from app.scene.scene import Camera
 
 Farthest: TypeAlias = Callable[[Floats], Floats]
@@ -51,6 +51,16 @@ def axes_from(direction: tuple[float, float, float]) -> Axes:
     right = np.cross([0.0, 1.0, 0.0] if steep else [0.0, 0.0, 1.0], back)
     right /= np.linalg.norm(right)
     return Axes(right, np.cross(back, right), back)
+
+
+def view_of(program: Program) -> View:
+    """The view that a program is seen in: its own, but a flat drawing is seen from straight above.
+
+    Its projection and direction then say nothing; margin and the rest stay as they are.
+    """
+    if program.layout.dimensions == 3:
+        return program.view
+    return program.view.model_copy(update={"projection": "orthographic", "from_": (0.0, 0.0, 1.0)})
 
 
 def frame(

@@ -124,7 +124,8 @@ class Scene:
     """Everything to be seen. ``background`` is linear RGB, or ``None`` for transparent.
 
     ``bounds`` (2, 3) hold the items and hyperedges, without the ground. Hyperedges are either among
-    the nodes or a ``crowd``, which only glTF can show.
+    the nodes or a ``crowd``, which only glTF can show. ``halo`` is how wide a gap tubes leave in
+    those that pass behind, in radii of the one in front.
     """
 
     name: str
@@ -135,3 +136,4 @@ class Scene:
     background: tuple[float, float, float] | None
     bounds: Floats
     crowd: Crowd | None = None
+    halo: float = 0.0

@@ -51,7 +51,7 @@ def test_a_shadow_map_holds_its_casters_and_fits_them(
     toward: tuple[float, float, float], seed: int, margin: float
 ) -> None:
     points = np.random.default_rng(seed).uniform(-1, 1, (50, 3)).astype(np.float32)
-    camera = shadow_camera(np.array(toward), [points[:20], points[20:]], edge=0.01, margin=margin)
+    camera = shadow_camera(np.array(toward), points, edge=0.01, margin=margin)
     mapped = points @ camera.matrix[:3, :3].T + camera.matrix[:3, 3]
     share = margin / camera.extent[:2]
     for axis in range(2):
@@ -64,6 +64,12 @@ def test_a_shadow_map_holds_its_casters_and_fits_them(
 
 def test_depth_in_a_shadow_map_grows_away_from_the_light() -> None:
     points = np.array([[0, 0, 0], [0, 0, 1], [1, 1, 0.5]], dtype=np.float32)
-    camera = shadow_camera(np.array([0.0, 0.0, 1.0]), [points], edge=0.0)
+    camera = shadow_camera(np.array([0.0, 0.0, 1.0]), points, edge=0.0)
     low, high = (camera.matrix @ [*points[index], 1.0] for index in (0, 1))
     assert high[2] < low[2]
+
+
+def test_the_ground_gets_what_a_level_sheet_gets() -> None:
+    light = lighting([sun((0.3, 0.0, -1.0)), Light("fill", (1.0, 0.0, -0.2), WHITE, 1.0, False)])
+    falling = light.at(np.array([[0.0, 0.0, 1.0]]))[0]
+    assert light.on_the_ground == pytest.approx(falling @ [0.2126, 0.7152, 0.0722])

@@ -13,7 +13,6 @@ from PIL import Image
 
 from app.arrays import Floats
 from app.output.draft import draw
-from app.output.draft_view import DOUBLED
 from app.output.effort import Effort
 from app.output.final import draw_final
 from app.output.final_passes import passes_of
@@ -63,7 +62,7 @@ def test_the_same_seed_gives_the_same_picture_and_another_does_not() -> None:
 def test_it_shows_what_the_draft_shows_at_the_same_place(projection: str) -> None:
     scene = scene_of({**RED, "view": {"projection": projection}, "style": {"ground": False}})
     found = pixels(scene, Effort(samples=16))
-    expected = np.asarray(draw(scene, *SIZE, DOUBLED).convert("RGB"), dtype=np.float64)
+    expected = np.asarray(draw(scene, *SIZE, 4).convert("RGB"), dtype=np.float64)
     both = [picture[..., 0] - picture[..., 1] > 60 for picture in (found, expected)]
     assert both[1].sum() > 300
     assert (both[0] ^ both[1]).sum() < 0.06 * both[1].sum()
@@ -133,7 +132,7 @@ def test_eyes_that_look_past_see_the_picture_moved() -> None:
     ]
     assert columns[0] - columns[1] == pytest.approx(0.25 * SIZE[0] / 2, abs=1.5)
     drafts = [
-        np.argwhere(np.asarray(draw(seen, *SIZE, DOUBLED).convert("RGB"))[..., 1] < 200)[:, 1]
+        np.argwhere(np.asarray(draw(seen, *SIZE, 4).convert("RGB"))[..., 1] < 200)[:, 1]
         for seen in (scene, moved)
     ]
     assert columns == pytest.approx([found.mean() for found in drafts], abs=1.5)

@@ -1,0 +1,7 @@
+flat in uint of;
+
+out uint nearest;
+
+void main() {
+    nearest = of;
+}
