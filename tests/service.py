@@ -46,6 +46,14 @@ class Service:
         children = psutil.Process(self.process.pid).children()
         return [child for child in children if _is_worker(child)]
 
+    def spent(self) -> dict[int, float]:
+        """CPU seconds of its workers by process, once none of them computes."""
+        found: dict[int, float] = {}
+        while found != (now := {each.pid: cpu_seconds(each) for each in self.workers()}):
+            found = now
+            time.sleep(0.3)
+        return found
+
     def busy_worker(self, spent: dict[int, float]) -> psutil.Process | None:
         """The worker that has computed since ``spent`` (CPU seconds by process) was noted."""
         for worker in self.workers():

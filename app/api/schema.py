@@ -122,7 +122,7 @@ def describe(call: str) -> dict[str, Any]:
                 "description": "The client has this answer already (`If-None-Match`).",
                 "headers": _headers("ETag", "Vary"),
             },
-            **{status: _problem(detail) for status, detail in _PROBLEMS.items()},
+            **{status: _problem(call, detail) for status, detail in _PROBLEMS.items()},
         },
         "openapi_extra": {"requestBody": {"required": True, "content": _documents()}},
     }
@@ -181,11 +181,11 @@ def _contents(call: str) -> dict[str, Any]:
             }
 
 
-def _problem(detail: str) -> dict[str, Any]:
-    return {
-        "description": detail,
-        "content": {problems.MEDIA_TYPE: {"schema": _reference(Problem)}},
-    }
+def _problem(call: str, detail: str) -> dict[str, Any]:
+    content: dict[str, Any] = {problems.MEDIA_TYPE: {"schema": _reference(Problem)}}
+    if call == "render":  # with errors=image
+        content |= {each.media_type: {} for each in (SceneFormat.PNG, SceneFormat.SVG)}
+    return {"description": detail, "content": content}
 
 
 def _headers(*names: str) -> dict[str, Any]:

@@ -10,18 +10,22 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from app.arrays import Floats, Singles
+from app.arrays import Singles
 from app.output.effort import Effort
-from app.output.final_passes import Ending, Sampled, Sampler
+from app.output.final_passes import Ending, Guides, Sampled, Sampler
 from app.output.final_scene import FinalScene, final_scene
+from app.output.final_thread import wait_for
+from app.output.final_tone import melted, on_nothing, pixels
 from app.output.final_variant import final_problem, mitsuba
-from app.scene.color import srgb_from_linear
 from app.scene.scene import Scene
 
-__all__ = ["Final", "draw_final", "final_problem"]
+__all__ = ["Effort", "Final", "draw_final", "final_problem"]
 
-USUAL_SAMPLES = 12
+USUAL_SAMPLES = 8
 """Of each pixel; denoised, four times as many can hardly be told from them."""
+
+FINISHING_SECONDS = 1.5e-6
+"""For each pixel: what guides and denoising take when samples are there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,21 +56,27 @@ def draw_final(
     """
     began = time.monotonic()
     progress("building", 0.0)
-    renderer = mitsuba()
-    world = final_scene(renderer, scene)
+    renderer = wait_for(mitsuba, lambda: progress("building", 0.0))
+    world = wait_for(lambda: final_scene(renderer, scene), lambda: progress("building", 0.02))
     sampler = Sampler(renderer, world, scene.camera, width, height)
-    samples = effort.samples or USUAL_SAMPLES
     painter = _Painter(sampler, world, effort.denoise, scene.background is None)
+    limit = float("inf") if effort.time_limit is None else effort.time_limit
+    deadline = began + limit - FINISHING_SECONDS * width * height
+    share = 0.02
+
+    def told(done: float) -> None:
+        nonlocal share
+        share = 0.02 + 0.93 * done
+        progress("path tracing", share)
+
     shown = 0
-    for found in sampler.passes(
-        effort, samples, began, lambda share: progress("path tracing", 0.95 * share)
-    ):
+    for found in sampler.passes(effort, effort.samples or USUAL_SAMPLES, deadline, told):
         if found.ending is not None:
-            progress("denoising", 0.95)
-            return Final(painter.paint(found), found.samples, found.noise, found.ending)
+            picture = painter.paint(found, lambda: progress("denoising", 0.97))
+            return Final(picture, found.samples, found.noise, found.ending)
         if preview is not None and found.samples >= 3 * shown:
             shown = found.samples
-            preview(painter.paint(found))
+            preview(painter.paint(found, lambda: progress("path tracing", share)))
     raise AssertionError("The last pass says that it is the last.")
 
 
@@ -75,38 +85,42 @@ class _Painter:
     """Makes pixels of what has been gathered."""
 
     sampler: Sampler
-    world: FinalScene
+    scene: FinalScene
     denoises: bool
     transparent: bool
-    _guides: tuple[Singles, Singles] | None = None
+    _guides: Guides | None = None
 
-    def paint(self, found: Sampled) -> Image.Image:
+    def paint(self, found: Sampled, alive: Callable[[], None]) -> Image.Image:
         """8 bits, sRGB."""
+        alive()
+        if self._guides is None:
+            self._guides = self.sampler.guides(alive)
+        guides = self._guides
+        covered = guides.covered
         light = found.light[..., :3]
         if self.denoises:
-            light = self._denoised(light)
-        covered = np.clip(found.light[..., 3:], 0.0, 1.0)
-        seen = light * covered + self.world.background * (1.0 - covered)
-        return Image.fromarray(_encoded(seen))
-
-    def _denoised(self, light: Singles) -> Singles:
-        import mitsuba_oidn
-
-        if self._guides is None:
-            self._guides = self.sampler.guides()
-        albedo, normals = self._guides
-        found: Any = mitsuba_oidn.denoise(
-            np.ascontiguousarray(light),
-            np.clip(albedo, 0.0, 1.0),
-            normals,
-            hdr=True,
-            clean_aux=True,
-        )
-        return np.asarray(found, dtype=np.float32)
+            light = wait_for(lambda: _denoised(found.light, guides), alive)
+        here = np.clip(found.light[..., 3:], 0.0, 1.0)
+        if not (self.scene.hides_sky or self.scene.has_ground):
+            here = np.clip(covered, 0.0, 1.0)[..., None]
+        background = self.scene.background.astype(np.float32)
+        light = light * here + background * (1.0 - here)
+        if self.scene.has_ground:
+            light = melted(light, 1.0 - covered, self.scene.background)
+        seen = pixels(light)
+        return Image.fromarray(on_nothing(seen, covered) if self.transparent else seen)
 
 
-def _encoded(linear: Floats | Singles) -> Any:
-    """Linear light as sRGB, 8 bits: what is brighter than white is white."""
-    return np.round(srgb_from_linear(np.clip(linear, 0.0, 1.0).astype(np.float64)) * 255).astype(
-        np.uint8
+def _denoised(light: Singles, guides: Guides) -> Singles:
+    """Without noise, (height, width, 3); ``light`` has coverage as its fourth channel."""
+    import mitsuba_oidn
+
+    found: Any = mitsuba_oidn.denoise(
+        np.ascontiguousarray(light[..., :3]),
+        guides.albedo,
+        guides.normals,
+        hdr=True,
+        clean_aux=True,
+        quality=mitsuba_oidn.Quality.Balanced,
     )
+    return np.asarray(found, dtype=np.float32)

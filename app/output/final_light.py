@@ -10,15 +10,16 @@ import numpy as np
 from app.arrays import Floats, Singles
 from app.scene.scene import Light
 
-HEIGHT, WIDTH = 128, 256
-"""Of the map: a texel is 1.4 degrees wide, much smaller than the softest light."""
+HEIGHT, WIDTH = 256, 512
+"""Of the map: a texel is 0.7 degrees wide, much smaller than the softest light."""
 
 SKY, EARTH = 0.75, 0.4
 """Radiance straight above and straight below; the ground hides most of the latter."""
 
-BOXES = ((0.2, 0.58), (0.4, 0.05), (0.3, 0.07))
+BOXES = ((0.08, 0.6), (0.4, 0.05), (0.3, 0.07))
 """Of key, fill and rim: half their angle in radians, and the share that each has of the light that
-falls on the ground. Beside them the sky shines; the more it does, the paler the shadows."""
+falls on the ground. Beside them the sky shines; the more it does, the paler the shadows. A wide key
+would dissolve the shadow of a tube that runs some ten of its radii high."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

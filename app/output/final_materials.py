@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from app.arrays import Floats
+from app.arrays import Floats, Singles
 from app.scene.color import linear_of
-from app.scene.scene import Material
+from app.scene.scene import Material, TextureName
 from app.scene.textures import texture, tint
 
 PAPER = 0.86
 """What white reflects: the ground reflects more, so that white things on it keep their shape."""
+
+BRIGHTEST = 0.95
+"""What the ground reflects where the background is white; the exposure makes up for it."""
+
+TINT = 0.25
+"""Power of a colour by which glass tints light that crosses its surface once."""
 
 DULL = 0.8
 """Roughness from which on a surface has no highlight."""
@@ -38,13 +45,18 @@ class Kind:
     opacity: float
     ior: float
     is_lit: bool
-    texture: str | None = None
+    texture: TextureName | None = None
     color: tuple[float, float, float] | None = None
 
     @property
     def is_glass(self) -> bool:
         """Whether light goes through and is bent."""
         return self.transmission > 0.0
+
+    @property
+    def has_vertex_colors(self) -> bool:
+        """Whether the mesh says what colour is where."""
+        return self.texture is None
 
     @staticmethod
     def of(material: Material, has_coordinates: bool) -> Kind:
@@ -72,9 +84,10 @@ def vertex_color(kind: Kind, color: Floats) -> Floats:
     Glass tints light each time that it comes in or goes out, which may be six times in a block.
     """
     if kind.is_glass:
-        clear = 1.0 - kind.transmission * (1.0 - color)
-        return np.asarray(np.clip(clear, 0.0, 1.0) ** 0.15)
-    return color if not kind.is_lit or kind.metallic else color * PAPER
+        return np.asarray(np.clip(color, 0.0, 1.0) ** TINT)
+    if not kind.is_lit:
+        return color * BRIGHTEST
+    return color if kind.metallic else color * PAPER
 
 
 def bsdf(renderer: Any, kind: Kind) -> dict[str, Any]:
@@ -98,15 +111,7 @@ def _surface(kind: Kind, color: dict[str, Any]) -> dict[str, Any]:
     if not kind.is_lit:
         return {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.0}}
     if kind.is_glass:
-        glass = {"int_ior": kind.ior, "specular_transmittance": color}
-        if kind.roughness <= SMOOTH:
-            return {"type": "dielectric", **glass}
-        return {
-            "type": "roughdielectric",
-            "distribution": "ggx",
-            "alpha": kind.roughness**2,
-            **glass,
-        }
+        return _glass(kind, color)
     if kind.roughness >= DULL and not kind.metallic and not kind.clearcoat:
         return {"type": "twosided", "below": {"type": "diffuse", "reflectance": color}}
     found: dict[str, Any] = {
@@ -122,14 +127,36 @@ def _surface(kind: Kind, color: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
+def _glass(kind: Kind, color: dict[str, Any]) -> dict[str, Any]:
+    """Clear or frosted; where little light passes, part of it is like plastic."""
+    found: dict[str, Any] = {
+        "type": "dielectric",
+        "int_ior": kind.ior,
+        "specular_transmittance": color,
+    }
+    if kind.roughness > SMOOTH:
+        found |= {"type": "roughdielectric", "distribution": "ggx", "alpha": kind.roughness**2}
+    if kind.transmission >= 1.0:
+        return found
+    body = {"type": "principled", "base_color": color, "roughness": max(kind.roughness, 0.05)}
+    milky = {"type": "twosided", "below": body}
+    return {"type": "blendbsdf", "weight": kind.transmission, "milky": milky, "clear": found}
+
+
+@lru_cache(maxsize=2)
+def _pattern(name: TextureName) -> Singles:
+    """A texture in linear light, (s, s, 3)."""
+    levels = linear_of(np.arange(256) / 255.0).astype(np.float32)
+    return np.asarray(levels[texture(name)])
+
+
 def _texture(renderer: Any, kind: Kind) -> dict[str, Any]:
     if kind.texture is None or kind.color is None:
         raise ValueError("This kind has no texture.")
-    pattern = linear_of(texture(kind.texture) / 255.0)
-    data = pattern * vertex_color(kind, np.array(tint(kind.color)))
+    color = vertex_color(kind, np.array(tint(kind.color))).astype(np.float32)
     return {
         "type": "bitmap",
-        "data": renderer.TensorXf(data.astype(np.float32)),
+        "data": renderer.TensorXf(_pattern(kind.texture) * color),
         "raw": True,
         "wrap_mode": "repeat",
     }

@@ -7,24 +7,34 @@ import math
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
 
 from app.arrays import Singles
 from app.output.effort import Effort
-from app.output.final_scene import FinalScene, sensor
+from app.output.final_camera import Window, sensor
+from app.output.final_guides import guide
+from app.output.final_scene import FinalScene
+from app.output.final_thread import wait_for
 from app.scene.scene import Camera
 
 Ending = Literal["samples", "time limit", "noise"]
 
-PASSES = (1, 3, 4, 8)
-"""Samples of the first passes, each spread evenly within itself; the last number comes again."""
+PASS_SAMPLES = 4
+"""Of each pixel in a pass, spread evenly. Another number would be another kernel to compile."""
+
+PASS_PIXELS = 3 << 20
+"""Samples of all pixels in a pass, about: of a large picture a pass takes fewer of each."""
 
 TILE_PIXELS = 1 << 20
 """Drawn at once: more would not be quicker, and would take gigabytes."""
 
-GUIDE_SAMPLES = 4
+BRIGHTEST_PIXEL = 6.0
+"""What a pass may add to a pixel, white being 1: a single glint is not to make a spark."""
+
+GUIDE_SAMPLES = 8
 """For what guides the denoiser: it costs little, since no light is followed."""
 
 
@@ -43,26 +53,39 @@ class Sampled:
 
     @property
     def noise(self) -> float:
-        """Standard error of the mean luminance over all pixels, in the range that is shown."""
-        if self.passes < 2:
-            return 1.0
+        """Standard error of the mean brightness over all pixels, in the range that is shown.
+
+        Of a single pass, too much: how much neighbours differ.
+        """
         mean = np.clip(self.light[..., :3].mean(axis=2), 0.0, 1.0)
+        if self.passes < 2:
+            steps = np.diff(mean, axis=1)
+            return float(np.sqrt((steps * steps).mean() / 2)) if steps.size else 1.0
         spread = np.clip(self.squares / self.samples - mean * mean, 0.0, None)
         return float(np.sqrt(spread.mean() / (self.passes - 1)))
 
 
-def passes_of(samples: int) -> Iterator[int]:
-    """How many samples each pass takes, ``samples`` in all.
+@dataclass(frozen=True, slots=True, eq=False)
+class Guides:
+    """What denoising needs, and what is ground: (height, width, 3), twice, and (height, width).
 
-    >>> list(passes_of(22))
-    [1, 3, 4, 8, 6]
+    ``covered`` is how much of each pixel shows anything but ground and sky.
     """
-    left = samples
-    for count in itertools.chain(PASSES, itertools.repeat(PASSES[-1])):
-        if left <= 0:
-            return
-        yield min(count, left)
-        left -= count
+
+    albedo: Singles
+    normals: Singles
+    covered: Singles
+
+
+def passes_of(samples: int, pixels: int) -> list[int]:
+    """How many samples each pass takes, ``samples`` in all; two passes, lest noise be unknown.
+
+    >>> passes_of(10, 640 * 480), passes_of(4, 640 * 480), passes_of(3, 4096 * 4096)
+    ([4, 4, 2], [2, 2], [1, 1, 1])
+    """
+    usual = max(1, min(PASS_SAMPLES, PASS_PIXELS // pixels, samples // 2))
+    whole, rest = divmod(samples, usual)
+    return [usual] * whole + [rest] * (rest > 0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,82 +99,105 @@ class Sampler:
     height: int
 
     def passes(
-        self, effort: Effort, samples: int, began: float, told: Callable[[float], None]
+        self, effort: Effort, samples: int, deadline: float, told: Callable[[float], None]
     ) -> Iterator[Sampled]:
         """What has been gathered after each pass; the last one says why it is the last.
 
-        ``began`` is when the clock (`time.monotonic`) started for a time limit. ``told`` hears the
-        share of the samples that are taken.
+        There should be no pass that ends after ``deadline`` (`time.monotonic`), if it is not the
+        first. ``told`` hears the share of the samples that are taken.
         """
         shape = (self.height, self.width)
         found = Sampled(np.zeros((*shape, 4), np.float32), 0, np.zeros(shape, np.float32), 0)
         windows = list(self._windows())
-        sensors = [
-            sensor(self.renderer, self.camera, (self.width, self.height), window)
-            for window in windows
-        ]
-        for number, count in enumerate(passes_of(samples)):
+        sensors = [self._sensor(window) for window in windows]
+        counts = passes_of(samples, self.width * self.height)
+        for number, count in enumerate(counts):
             started = time.monotonic()
             light = np.empty((*shape, 4), np.float32)
             for tile, (window, eye) in enumerate(zip(windows, sensors, strict=True)):
+                done = found.samples + count * tile / len(windows)
+                share, more = done / samples, count / len(windows) / samples
+                drawn = wait_for(
+                    self._drawing(eye, count, _seed(effort.seed, number, tile)),
+                    _creeping(told, share, more),
+                )
                 left, top, width, height = window
-                seed = _seed(effort.seed, number, tile)
-                drawn = self.renderer.render(self.scene.world, sensor=eye, spp=count, seed=seed)
-                light[top : top + height, left : left + width] = np.array(drawn)[..., :4]
-                done = (found.samples + count * (tile + 1) / len(windows)) / samples
-                told(min(done, 1.0))
+                light[top : top + height, left : left + width] = drawn[..., :4]
+                told(min(share + more, 1.0))
             np.nan_to_num(light, copy=False, nan=0.0, posinf=0.0, neginf=0.0)
             self._add(found, light, count)
-            took = time.monotonic() - started
-            found.ending = self._ending(found, effort, samples, began, took / count)
+            if number == len(counts) - 1:
+                found.ending = "samples"
+            elif effort.noise is not None and found.passes > 1 and found.noise <= effort.noise:
+                found.ending = "noise"
+            elif 2 * time.monotonic() - started > deadline:
+                found.ending = "time limit"
             yield found
             if found.ending is not None:
                 return
 
-    def guides(self) -> tuple[Singles, Singles]:
-        """Albedo and normals (height, width, 3) of what is seen first, nearly without noise."""
-        integrator = self.renderer.load_dict({"type": "aov", "aovs": "a:albedo,n:sh_normal"})
-        found = np.empty((self.height, self.width, 6), np.float32)
+    def guides(self, alive: Callable[[], None]) -> Guides:
+        """Albedo, normals and coverage, nearly without noise."""
+        drawn = np.zeros((self.height, self.width, 7), np.float32)
         for window in self._windows():
             left, top, width, height = window
-            eye = sensor(self.renderer, self.camera, (self.width, self.height), window)
-            drawn = self.renderer.render(
-                self.scene.world, sensor=eye, integrator=integrator, spp=GUIDE_SAMPLES, seed=0
-            )
-            found[top : top + height, left : left + width] = np.array(drawn)[..., -6:]
-        np.nan_to_num(found, copy=False)
-        return np.ascontiguousarray(found[..., :3]), np.ascontiguousarray(found[..., 3:])
+            part = wait_for(partial(self._guides, window), alive)
+            drawn[top : top + height, left : left + width] = part
+        np.nan_to_num(drawn, copy=False)
+        albedo, normals = (np.ascontiguousarray(drawn[..., at : at + 3]) for at in (0, 3))
+        return Guides(np.clip(albedo, 0.0, 1.0), normals, drawn[..., 6])
+
+    def _guides(self, window: Window) -> Singles:
+        """Albedo, normals and coverage of a part of the picture, (height, width, 7)."""
+        eye = self._sensor(window)
+        found = np.zeros((window[3], window[2], 7), np.float32)
+        draw = self.renderer.render
+        seen = draw(
+            self.scene.world,
+            sensor=eye,
+            integrator=guide(self.renderer, through_glass=self.scene.has_glass),
+            spp=GUIDE_SAMPLES,
+            seed=0,
+        )
+        found[..., :6] = np.array(seen)[..., -6:]
+        if self.scene.things is not None:
+            depth = self.renderer.load_dict({"type": "depth"})
+            seen = draw(self.scene.things, sensor=eye, integrator=depth, spp=GUIDE_SAMPLES, seed=0)
+            found[..., 6] = np.array(seen)[..., 3]
+        return found
+
+    def _drawing(self, eye: Any, count: int, seed: int) -> Callable[[], Singles]:
+        return lambda: np.array(
+            self.renderer.render(self.scene.world, sensor=eye, spp=count, seed=seed)
+        )
+
+    def _sensor(self, window: Window) -> Any:
+        size = (self.width, self.height)
+        return sensor(self.renderer, self.camera, self.scene.measure, size, window)
 
     def _add(self, found: Sampled, light: Singles, count: int) -> None:
         total = found.samples + count
         light[..., :3] *= self.scene.exposure
+        np.minimum(light[..., :3], BRIGHTEST_PIXEL, out=light[..., :3])
         found.light += (light - found.light) * np.float32(count / total)
         shown = np.clip(light[..., :3].mean(axis=2), 0.0, 1.0)
         found.squares += count * shown * shown
         found.samples = total
         found.passes += 1
 
-    def _ending(
-        self, found: Sampled, effort: Effort, samples: int, began: float, per_sample: float
-    ) -> Ending | None:
-        if found.samples >= samples:
-            return "samples"
-        if effort.noise is not None and found.passes > 2 and found.noise <= effort.noise:
-            return "noise"
-        if effort.time_limit is not None:
-            following = PASSES[min(found.passes, len(PASSES) - 1)]
-            spent = time.monotonic() - began
-            if spent + following * per_sample > effort.time_limit:
-                return "time limit"
-        return None
-
-    def _windows(self) -> Iterator[tuple[int, int, int, int]]:
-        """Strips of the picture: left, top, width, height."""
+    def _windows(self) -> Iterator[Window]:
+        """Strips of the picture."""
         rows = max(1, min(self.height, TILE_PIXELS // self.width))
         strips = math.ceil(self.height / rows)
         edges = np.linspace(0, self.height, strips + 1).astype(int).tolist()
         for top, bottom in itertools.pairwise(edges):
             yield 0, top, self.width, bottom - top
+
+
+def _creeping(told: Callable[[float], None], share: float, more: float) -> Callable[[], None]:
+    """Tells ``share`` and a little more each time, never all of what is to come."""
+    steps = itertools.count(1)
+    return lambda: told(share + more * (1.0 - 0.9 ** next(steps)))
 
 
 def _seed(seed: int, number: int, tile: int) -> int:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from app.arrays import Faces, Floats, Singles
+from app.output.final_camera import REACH, Measure, sees_ground
 from app.output.final_light import studio
-from app.output.final_materials import Kind, bsdf, emitter, vertex_color
+from app.output.final_materials import BRIGHTEST, Kind, bsdf, emitter, vertex_color
 from app.placement.turning import matrices
-from app.scene.scene import Camera, Node, Scene
+from app.scene.scene import Node, Scene
 from app.solids.mesh import Mesh
 
 BOUNCES = 7
@@ -20,24 +21,29 @@ BOUNCES = 7
 
 GLASS_BOUNCES = 14
 
-GROUND_WIDTH = 60.0
-"""Radius of the ground over the scene's diagonal: its rim is beyond all that is seen."""
+GROUND_WIDTH = 200.0
+"""Half the side of the ground over the scene's reach: its rim is beyond all that is seen."""
 
-BRIGHTEST_GROUND = 0.95
-"""What the ground reflects where the background is white; the exposure makes up for it."""
-
-GAP = 2e-4
-"""By which glass is smaller than it should be, as a share: its floor is not that of its tray."""
+GAP = 0.006
+"""By which glass is smaller than it should be on all sides (`REACH` being 10), thrice as far as
+rays keep away from surfaces: else its floor and that of its tray would be one."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FinalScene:
     """What is drawn (``world``, Mitsuba's), and what makes pixels of it.
 
+    ``things`` is the same without the ground, and ``None`` where there is nothing but a ground.
+    Where it ``hides_sky``, coverage says where there is sky; else the sky is in the picture.
     ``exposure`` is multiplied; ``background`` is linear RGB (3,), white where there is none.
     """
 
     world: Any
+    things: Any | None
+    has_ground: bool
+    has_glass: bool
+    hides_sky: bool
+    measure: Measure
     exposure: float
     background: Floats
 
@@ -45,79 +51,47 @@ class FinalScene:
 def final_scene(renderer: Any, scene: Scene) -> FinalScene:
     """The scene for ``renderer`` (Mitsuba): meshes, light and ground; cameras come later."""
     background = np.ones(3) if scene.background is None else np.asarray(scene.background)
+    measure = Measure.of(scene.bounds)
     upright = renderer.ScalarTransform4f().rotate([1, 0, 0], 90)
     radiance = renderer.Bitmap(studio(scene.lights).radiance)
-    groups = _grouped(scene)
+    groups = _grouped(scene, measure)
     glass = any(kind.is_glass for kind in groups)
+    hides_sky = all(kind.is_lit for kind in groups)
     parts: dict[str, Any] = {
         "type": "scene",
         "path": {
             "type": "path",
             "max_depth": GLASS_BOUNCES if glass else BOUNCES,
             "rr_depth": 4,
-            # Then the sky is not seen, and the background is; but what shines would not be either.
-            "hide_emitters": all(kind.is_lit for kind in groups),
+            # Then the sky is not seen; but neither would be what shines.
+            "hide_emitters": hides_sky,
         },
         "studio": {"type": "envmap", "bitmap": radiance, "to_world": upright},
     }
-    if any(node.shows == "ground" for node in scene.nodes):
-        parts["ground"] = _ground(renderer, scene, background)
     for number, (kind, pieces) in enumerate(groups.items()):
-        parts[f"surface{number:03}"] = _mesh(renderer, f"surface{number:03}", kind, pieces)
-    return FinalScene(renderer.load_dict(parts), 1.0 / BRIGHTEST_GROUND, background)
-
-
-def sensor(
-    renderer: Any, camera: Camera, size: tuple[int, int], window: tuple[int, int, int, int]
-) -> Any:
-    """A camera for pictures of ``size``, which draws only ``window`` (left, top, width, height)."""
-    transform = renderer.ScalarTransform4f()
-    to_world = transform.look_at(
-        origin=list(camera.position), target=list(camera.target), up=_up(camera)
+        name = f"surface{number:03}"
+        parts[name] = _mesh(renderer, name, kind, pieces)
+    things = renderer.load_dict(parts) if groups else None
+    floor = float(scene.bounds[0, 2])
+    grounded = any(node.shows == "ground" for node in scene.nodes)
+    if grounded and sees_ground(scene.camera, floor):
+        parts["ground"] = _ground(renderer, measure, scene.bounds, background)
+    world = renderer.load_dict(parts) if "ground" in parts or things is None else things
+    return FinalScene(
+        world,
+        things,
+        "ground" in parts,
+        glass,
+        hides_sky,
+        measure,
+        1.0 / BRIGHTEST,
+        background,
     )
-    left, top, width, height = window
-    parts: dict[str, Any] = {
-        "near_clip": camera.near,
-        "far_clip": camera.far,
-        "film": {
-            "type": "hdrfilm",
-            "width": size[0],
-            "height": size[1],
-            "crop_offset_x": left,
-            "crop_offset_y": top,
-            "crop_width": width,
-            "crop_height": height,
-            "rfilter": {"type": "box"},
-            "pixel_format": "rgba",
-            "component_format": "float32",
-        },
-        "sampler": {"type": "multijitter"},
-    }
-    if camera.vertical_angle is not None:
-        parts["type"] = "perspective"
-        parts["principal_point_offset_x"] = camera.shift[0] / 2
-        parts["principal_point_offset_y"] = -camera.shift[1] / 2
-        parts["fov_axis"] = "y"
-        parts["fov"] = float(np.degrees(camera.vertical_angle))
-    else:
-        half = (camera.height or 1.0) * size[0] / size[1] / 2
-        parts["type"] = "orthographic"
-        to_world = to_world @ transform.scale([half, half, 1.0])
-    parts["to_world"] = to_world
-    return renderer.load_dict(parts)
-
-
-def _up(camera: Camera) -> list[float]:
-    """Any other, where a camera looks along its own."""
-    away = np.subtract(camera.target, camera.position)
-    aside = np.linalg.norm(np.cross(away, camera.up))
-    up = camera.up if aside > 1e-9 * np.linalg.norm(away) else np.roll(camera.up, 1)
-    return [float(part) for part in up]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Piece:
-    """A primitive in the world."""
+    """A primitive as it is drawn."""
 
     vertices: Singles
     normals: Singles
@@ -126,7 +100,7 @@ class _Piece:
     color: Floats
 
 
-def _grouped(scene: Scene) -> dict[Kind, list[_Piece]]:
+def _grouped(scene: Scene, measure: Measure) -> dict[Kind, list[_Piece]]:
     groups: dict[Kind, list[_Piece]] = {}
     for node in scene.nodes:
         if node.shows == "ground":
@@ -136,25 +110,27 @@ def _grouped(scene: Scene) -> dict[Kind, list[_Piece]]:
                 continue
             material = scene.materials[primitive.material]
             kind = Kind.of(material, primitive.mesh.coordinates is not None)
-            piece = _placed(
-                node, primitive.mesh, vertex_color(kind, np.array(material.base_color[:3]))
-            )
+            color = vertex_color(kind, np.array(material.base_color[:3]))
+            piece = _placed(node, primitive.mesh, color, measure)
             if kind.is_glass and node.shows == "item":
                 piece = _shrunk(piece)
             groups.setdefault(kind, []).append(piece)
     return groups
 
 
-def _placed(node: Node, mesh: Mesh, color: Floats) -> _Piece:
+def _placed(node: Node, mesh: Mesh, color: Floats, measure: Measure) -> _Piece:
     turn = matrices(np.array(node.rotation)).T.astype(np.float32)
-    vertices = mesh.vertices @ turn + np.array(node.translation, dtype=np.float32)
+    at = measure.place(np.array(node.translation)).astype(np.float32)
+    vertices = (mesh.vertices @ turn) * np.float32(measure.scale) + at
     return _Piece(vertices, mesh.normals @ turn, mesh.faces, mesh.coordinates, color)
 
 
 def _shrunk(piece: _Piece) -> _Piece:
-    middle = (piece.vertices.min(axis=0) + piece.vertices.max(axis=0)) / 2
-    vertices = middle + (piece.vertices - middle) * np.float32(1.0 - GAP)
-    return _Piece(vertices, piece.normals, piece.faces, piece.coordinates, piece.color)
+    low, high = piece.vertices.min(axis=0), piece.vertices.max(axis=0)
+    factor = 1.0 - np.minimum(2 * GAP / np.maximum(high - low, 1e-9), 0.05)
+    middle = (low + high) / 2
+    vertices = middle + (piece.vertices - middle) * factor.astype(np.float32)
+    return replace(piece, vertices=vertices)
 
 
 def _mesh(renderer: Any, name: str, kind: Kind, pieces: list[_Piece]) -> Any:
@@ -173,17 +149,17 @@ def _mesh(renderer: Any, name: str, kind: Kind, pieces: list[_Piece]) -> Any:
         vertex_count=int(counts.sum()),
         face_count=len(faces),
         has_vertex_normals=True,
-        has_vertex_texcoords=kind.texture is not None,
+        has_vertex_texcoords=not kind.has_vertex_colors,
         props=properties,
     )
-    if kind.texture is None:
+    if kind.has_vertex_colors:
         colors = np.repeat([piece.color for piece in pieces], counts, axis=0)
         mesh.add_attribute("vertex_color", 3, colors.astype(np.float32).ravel())
     found = renderer.traverse(mesh)
     found["vertex_positions"] = np.concatenate([piece.vertices for piece in pieces]).ravel()
     found["vertex_normals"] = np.concatenate([piece.normals for piece in pieces]).ravel()
     found["faces"] = faces.ravel()
-    if kind.texture is not None:
+    if not kind.has_vertex_colors:
         found["vertex_texcoords"] = np.concatenate(list(_coordinates(pieces))).ravel()
     found.update()
     return mesh
@@ -195,15 +171,18 @@ def _coordinates(pieces: list[_Piece]) -> Iterator[Singles]:
             yield piece.coordinates
 
 
-def _ground(renderer: Any, scene: Scene, background: Floats) -> dict[str, Any]:
-    """A disc of the background's colour, which under the studio's light melts into it."""
-    low, high = scene.bounds
-    diagonal = max(float(np.linalg.norm(high - low)), 1e-3)
-    middle = [*((low[:2] + high[:2]) / 2).tolist(), float(low[2]) - 1e-4 * diagonal]
-    place = renderer.ScalarTransform4f().translate(middle).scale(GROUND_WIDTH * diagonal)
-    color = (background * BRIGHTEST_GROUND).tolist()
-    return {
-        "type": "disk",
-        "to_world": place,
-        "surface": {"type": "diffuse", "reflectance": {"type": "rgb", "value": color}},
-    }
+def _ground(renderer: Any, measure: Measure, bounds: Floats, background: Floats) -> Any:
+    """A square of the background's colour, which under the studio's light melts into it."""
+    low, high = measure.place(bounds)
+    half = GROUND_WIDTH * REACH
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half + (low[:2] + high[:2]) / 2
+    color = {"type": "rgb", "value": (background * BRIGHTEST).tolist()}
+    properties = renderer.Properties()
+    properties["mesh_bsdf"] = renderer.load_dict({"type": "diffuse", "reflectance": color})
+    mesh = renderer.Mesh("ground", vertex_count=4, face_count=2, props=properties)
+    found = renderer.traverse(mesh)
+    vertices = np.column_stack([corners, np.full(4, low[2] - GAP)])
+    found["vertex_positions"] = vertices.astype(np.float32).ravel()
+    found["faces"] = np.array([0, 1, 2, 0, 2, 3], dtype=np.uint32)
+    found.update()
+    return mesh

@@ -6,7 +6,7 @@ import time
 import httpx
 
 from tests.api.event_streams import Event, events
-from tests.service import SMALL, Service, cpu_seconds, gone, large_program, until
+from tests.service import SMALL, Service, gone, large_program, until
 
 STREAM = {"accept": "text/event-stream"}
 
@@ -60,7 +60,7 @@ def test_what_is_accepted_besides_says_in_which_format_the_answer_comes(
 def test_who_leaves_a_final_picture_frees_the_processor_within_a_second(service: Service) -> None:
     with service.client() as client:
         until(lambda: client.get("/readyz").json()["workers"]["warm"] == 2)
-        spent = {worker.pid: cpu_seconds(worker) for worker in service.workers()}
+        spent = service.spent()
         query = "/v1/render?format=png&quality=final&samples=4096"
         with client.stream("POST", query, headers=STREAM, json=SMALL) as response:
             next(events(response))

@@ -12,7 +12,6 @@ from tests.service import (
     PATIENCE_SECONDS,
     SMALL,
     Service,
-    cpu_seconds,
     gone,
     large_program,
     running_service,
@@ -41,7 +40,7 @@ def test_a_worker_killed_at_work_costs_its_request_a_retry_and_others_nothing(
     whole = client.post("/v1/render", content=LARGE)
     assert whole.status_code == 200
     before = {worker.pid for worker in service.workers()}
-    spent = {worker.pid: cpu_seconds(worker) for worker in service.workers()}
+    spent = service.spent()
     with ThreadPoolExecutor(1) as background, service.client() as other:
         heavy = background.submit(other.post, "/v1/render", content=LARGE)
         victim = until(lambda: service.busy_worker(spent))
@@ -56,7 +55,7 @@ def test_a_worker_killed_at_work_costs_its_request_a_retry_and_others_nothing(
 
 def test_who_leaves_has_the_long_work_stopped(service: Service, client: httpx.Client) -> None:
     very_large = large_program(6000)
-    spent = {worker.pid: cpu_seconds(worker) for worker in service.workers()}
+    spent = service.spent()
     with service.client() as other, pytest.raises(httpx.ReadTimeout):
         other.post(
             "/v1/render", content=very_large, timeout=httpx.Timeout(PATIENCE_SECONDS, read=1)

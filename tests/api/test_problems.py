@@ -86,7 +86,7 @@ def test_all_faults_come_at_once(client: httpx.Client) -> None:
         ("width=big", "width"),
         ("width=16384&height=16384", "height"),
         ("format=gif", "format"),
-        ("quality=final", "quality"),
+        ("quality=best", "quality"),
         ("from=verilog", "from"),
     ],
 )

@@ -140,7 +140,7 @@ def test_eyes_that_look_past_see_the_picture_moved() -> None:
 
 def test_passes_take_all_samples() -> None:
     for samples in (1, 2, 5, 16, 100):
-        assert sum(passes_of(samples)) == samples
+        assert sum(passes_of(samples, 640 * 480)) == samples
 
 
 def test_every_material_is_drawn() -> None:
