@@ -47,8 +47,8 @@ class MaterialEntry(Entry):
     transmission: float
     ior: float
     clearcoat: float
-    texture: str | None
-    natural_color: str | None
+    texture: str | None = None
+    natural_color: str | None = None
     is_lit: bool
 
 

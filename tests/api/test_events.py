@@ -63,7 +63,8 @@ def test_who_leaves_a_final_picture_frees_the_processor_within_a_second(service:
         spent = service.spent()
         query = "/v1/render?format=png&quality=final&samples=4096"
         with client.stream("POST", query, headers=STREAM, json=SMALL) as response:
-            next(events(response))
+            told = events(response)  # unnamed it would be closed, and the stream with it
+            next(told)
             busy = until(lambda: service.busy_worker(spent))
     left = time.monotonic()
     until(lambda: gone(busy))
