@@ -29,6 +29,7 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	$(PIP) install --no-deps --editable .
 	@echo "Compiling kernels, once: some two minutes …"
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.glb
+	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.svg
 	@touch $@
 
 $(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json $(VENV)/runtime.done
