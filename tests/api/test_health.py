@@ -6,6 +6,7 @@ import pytest
 from app.jobs.executor import WorkerPool
 from app.main import create_app
 from app.settings import Settings
+from tests.service import until
 
 
 def test_the_service_lives(client: httpx.Client) -> None:
@@ -13,6 +14,8 @@ def test_the_service_lives(client: httpx.Client) -> None:
 
 
 def test_the_service_is_ready_and_can_draw(client: httpx.Client) -> None:
+    # After the first worker it is ready; whoever asks early sees one of two.
+    until(lambda: client.get("/readyz").json()["workers"]["warm"] == 2)
     response = client.get("/readyz")
     assert response.status_code == 200
     assert response.json() == {
