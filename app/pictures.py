@@ -103,9 +103,10 @@ class Artist:
                 replace(scene, camera=camera),
                 width,
                 height,
-                replace(self.options.effort, time_limit=self._seconds_for_one()),
+                self.options.effort,
                 lambda _stage, share: self._tell(share),
                 self._show if self.preview is not None and self.count == 1 else None,
+                self._seconds_for_one(),
             )
             self._finals.append(final)
             self._drawn += 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,10 +22,10 @@ from app.scene.scene import Scene
 
 __all__ = ["Effort", "Final", "draw_final", "final_problem"]
 
-USUAL_SAMPLES = 8
+USUAL_SAMPLES = 16
 """Of each pixel; denoised, four times as many can hardly be told from them."""
 
-FINISHING_SECONDS = 1.5e-6
+FINISHING_SECONDS = 2.5e-6
 """For each pixel: what guides and denoising take when samples are there."""
 
 
@@ -48,11 +49,13 @@ def draw_final(
     effort: Effort,
     progress: Callable[[str, float], None],
     preview: Callable[[Image.Image], None] | None = None,
+    seconds: float = math.inf,
 ) -> Final:
     """The scene in ``width`` by ``height`` pixels, as good as ``effort`` allows.
 
-    ``progress`` may raise to end the work; ``preview`` is shown pictures that are not finished.
-    Raises `RendererUnavailable` where Mitsuba is missing.
+    ``seconds`` are what there is, whatever was wished for. ``progress`` may raise to end the work;
+    ``preview`` is shown pictures that are not finished. Raises `RendererUnavailable` where Mitsuba
+    is missing.
     """
     began = time.monotonic()
     progress("building", 0.0)
@@ -60,8 +63,8 @@ def draw_final(
     world = wait_for(lambda: final_scene(renderer, scene), lambda: progress("building", 0.02))
     sampler = Sampler(renderer, world, scene.camera, width, height)
     painter = _Painter(sampler, world, effort.denoise, scene.background is None)
-    limit = float("inf") if effort.time_limit is None else effort.time_limit
-    deadline = began + limit - FINISHING_SECONDS * width * height
+    limit = math.inf if effort.time_limit is None else effort.time_limit
+    deadline = began + min(limit, seconds) - FINISHING_SECONDS * width * height
     share = 0.02
 
     def told(done: float) -> None:
@@ -74,7 +77,7 @@ def draw_final(
         if found.ending is not None:
             picture = painter.paint(found, lambda: progress("denoising", 0.97))
             return Final(picture, found.samples, found.noise, found.ending)
-        if preview is not None and found.samples >= 3 * shown:
+        if preview is not None and found.samples >= 2 * shown:
             shown = found.samples
             preview(painter.paint(found, lambda: progress("path tracing", share)))
     raise AssertionError("The last pass says that it is the last.")
@@ -121,6 +124,6 @@ def _denoised(light: Singles, guides: Guides) -> Singles:
         guides.normals,
         hdr=True,
         clean_aux=True,
-        quality=mitsuba_oidn.Quality.Balanced,
+        quality=mitsuba_oidn.Quality.High,
     )
     return np.asarray(found, dtype=np.float32)

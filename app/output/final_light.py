@@ -10,16 +10,17 @@ import numpy as np
 from app.arrays import Floats, Singles
 from app.scene.scene import Light
 
-HEIGHT, WIDTH = 256, 512
-"""Of the map: a texel is 0.7 degrees wide, much smaller than the softest light."""
+HEIGHT, WIDTH = 512, 1024
+"""Of the map: a texel is a third of a degree wide, and the smallest light is six of them."""
 
-SKY, EARTH = 0.75, 0.4
-"""Radiance straight above and straight below; the ground hides most of the latter."""
+HORIZON = 0.25
+"""Radiance at the horizon and below, that straight above being 1: metal and glass show their shape
+by what is darker in what they mirror, and what stands low between others gets less light."""
 
-BOXES = ((0.08, 0.6), (0.4, 0.05), (0.3, 0.07))
+BOXES = ((0.035, 0.66), (0.4, 0.05), (0.3, 0.06))
 """Of key, fill and rim: half their angle in radians, and the share that each has of the light that
-falls on the ground. Beside them the sky shines; the more it does, the paler the shadows. A wide key
-would dissolve the shadow of a tube that runs some ten of its radii high."""
+falls on the ground. Beside them the sky shines; the more it does, the paler the shadows. The shadow
+of a tube keeps a dark core until the tube runs 1 / 0.035, some thirty, of its radii high."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,8 +38,8 @@ def studio(lights: Sequence[Light]) -> Studio:
     directions, solid_angles = _directions()
     up = np.clip(directions[..., 2], 0.0, None) * solid_angles / np.pi
     height = directions[..., 2:3]
-    sky = np.where(height > 0, SKY, EARTH) + (SKY - EARTH) * 0.5 * np.minimum(height, 0.0)
-    radiance = np.repeat(sky * (0.75 + 0.25 * height), 3, axis=2)
+    sky = HORIZON + (1.0 - HORIZON) * np.sqrt(np.clip(height, 0.0, None))
+    radiance = np.repeat(sky, 3, axis=2)
     boxes = np.zeros_like(radiance)
     shares = 0.0
     for light, (angle, share) in zip(lights, BOXES, strict=False):

@@ -18,8 +18,8 @@ from tests.service import running_service
 PICTURES = Path(__file__).with_name("pictures")
 MATERIALS = get_args(MaterialName)
 QUALITIES = ("draft", "final")
-COLUMNS, ROWS = 4, 2
-WIDTH, HEIGHT = 480, 288
+COLUMNS, ROWS = 3, 3
+WIDTH, HEIGHT = 384, 344
 
 SHAPES: dict[str, dict[str, Any]] = {
     "box": {"type": "box", "size": [1.3, 1.0, 1.0]},
@@ -29,12 +29,22 @@ SHAPES: dict[str, dict[str, Any]] = {
     "cone": {"type": "cone", "radius": 0.65, "height": 1.2},
     "arrow": {"type": "arrow", "length": 1.6, "radius": 0.45},
     "text": {"type": "text", "height": 0.9, "depth": 0.4},
+    "csg": {
+        "type": "csg",
+        "tree": {
+            "type": "difference",
+            "of": [
+                {"type": "box", "size": [1.2, 1.2, 1.0]},
+                {"type": "sphere", "radius": 0.6, "position": [0.3, -0.3, 0.5]},
+            ],
+        },
+    },
     "tube": {"type": "box", "size": [0.3, 0.3, 0.3]},
 }
 
 
 def document(material: str) -> dict[str, Any]:
-    """Eight things of ``material`` on a shelf: seven items, and a hyperedge of three."""
+    """Nine things of ``material`` on a shelf: eight items, and a hyperedge of three."""
     places = {
         name: [2.2 * (number % COLUMNS), -2.4 * (number // COLUMNS), HALF_HEIGHTS[name]]
         for number, name in enumerate(SHAPES)
@@ -75,10 +85,11 @@ HALF_HEIGHTS = {
     "cone": 0.6,
     "arrow": 0.45,
     "text": 0.2,
+    "csg": 0.5,
     "tube": 0.15,
 }
 FEET = ((-0.6, -0.3), (0.6, -0.4), (0.1, 0.6))
-COLORS = ("#e4572e", "#3a7ca5", "#e8b23a", "#6a994e", "#9d4edd", "#00a6a6", "#c2185b")
+COLORS = ("#e4572e", "#3a7ca5", "#e8b23a", "#6a994e", "#9d4edd", "#00a6a6", "#c2185b", "#5f7c3a")
 
 
 def query(quality: str) -> str:

@@ -99,14 +99,14 @@ def test_previews_come_and_progress_rises() -> None:
     final = draw_final(
         scene_of(RED),
         *SIZE,
-        Effort(samples=16),
+        Effort(samples=32),
         lambda _, share: shares.append(share),
         shown.append,
     )
     assert shares == sorted(shares)
     assert len(shown) >= 2
     assert all(picture.size == SIZE for picture in shown)
-    assert final.samples == 16
+    assert final.samples == 32
 
 
 def test_who_ends_the_work_can_begin_anew() -> None:
