@@ -15,7 +15,8 @@
     ├── RendererUnavailable         no way to draw on this machine; says what to install
     ├── WorkerLost                  a worker process died twice over the same work
     ├── DeadlineExceeded            the work took longer than it may
-    └── Overloaded                  too much work is waiting already
+    ├── Overloaded                  too much work is waiting already
+    └── StoreUnavailable            the database or the object store does not answer
 """
 
 from __future__ import annotations
@@ -111,3 +112,7 @@ class DeadlineExceeded(TubeloomError):
 
 class Overloaded(TubeloomError):
     """The service has more work waiting than it accepts."""
+
+
+class StoreUnavailable(TubeloomError):
+    """The database or the object store does not answer; what was asked may or may not be done."""

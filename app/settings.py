@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from pathlib import Path
 from typing import Literal
 
 from pydantic import Field
@@ -21,6 +22,14 @@ class Settings(BaseSettings):
         "auto", description="What the draft renderer draws with."
     )
     log_format: Literal["console", "json"] = "console"
+
+    data_folder: Path = Field(
+        Path(".tubeloom"), description="Where programs, jobs and results are kept by default."
+    )
+    database: str | None = Field(
+        None,
+        description="postgresql://… or sqlite:///…; left out, SQLite in the data folder.",
+    )
 
     max_body_bytes: int = Field(32 * 1024 * 1024, ge=1)
     max_waiting: int = Field(64, ge=0, description="Requests that may wait for a worker.")
@@ -50,6 +59,11 @@ class Settings(BaseSettings):
     max_print_triangles: int = Field(
         2_000_000, ge=1, description="Of what a print is made from, before tubes are united."
     )
+
+    @property
+    def database_url(self) -> str:
+        """Of the database, with its default."""
+        return self.database or f"sqlite:///{self.data_folder.resolve() / 'tubeloom.db'}"
 
 
 @lru_cache(maxsize=1)

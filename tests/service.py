@@ -103,7 +103,12 @@ def running_service(folder: Path, **settings: object) -> Iterator[Service]:
     with log.open("wb") as sink:
         process = subprocess.Popen(
             [sys.executable, "-m", "app", "serve", "--port", "0"],
-            env={**os.environ, "TUBELOOM_LOG_FORMAT": "json", **environment},
+            env={
+                **os.environ,
+                "TUBELOOM_LOG_FORMAT": "json",
+                "TUBELOOM_DATA_FOLDER": str(folder / "data"),
+                **environment,
+            },
             stderr=sink,
         )
     try:

@@ -28,6 +28,7 @@ from app.errors import (
     Overloaded,
     PictureTooLarge,
     RendererUnavailable,
+    StoreUnavailable,
     TubeloomError,
     UnknownName,
     Unprintable,
@@ -88,6 +89,7 @@ KINDS: Mapping[type[Exception], Kind] = {
     WorkerLost: Kind(500, "worker-lost", "The work ended a process, twice."),
     DeadlineExceeded: Kind(504, "deadline-exceeded", "The work took too long."),
     Overloaded: Kind(503, "overloaded", "The service is busy."),
+    StoreUnavailable: Kind(503, "store-unavailable", "What is stored cannot be reached."),
     RequestValidationError: Kind(400, "invalid-parameter", "A query parameter is wrong."),
     NotAcceptableError: Kind(406, "not-acceptable", "No format fits what is accepted."),
     UnsupportedMediaTypeError: Kind(415, "unsupported-media-type", "The body is not plain JSON."),
@@ -178,7 +180,7 @@ def _headers(error: Exception) -> Mapping[str, str] | None:
     match error:
         case HTTPException():
             return error.headers
-        case Overloaded():
+        case Overloaded() | StoreUnavailable():
             return {"Retry-After": str(RETRY_AFTER_SECONDS)}
         case _:
             return None

@@ -1,0 +1,1 @@
+"""What outlives a process: programs with their revisions, jobs, results, keys."""
