@@ -28,6 +28,12 @@ USUAL_SAMPLES = 16
 FINISHING_SECONDS = 2.5e-6
 """For each pixel: what guides and denoising take when samples are there."""
 
+STRIP_PIXELS = 1 << 20
+"""Denoised at once: it takes some 800 bytes for each."""
+
+OVERLAP = 64
+"""Rows by which strips overlap: nothing farther away is seen in what becomes of a pixel."""
+
 
 @dataclass(frozen=True, slots=True)
 class Final:
@@ -118,12 +124,51 @@ def _denoised(light: Singles, guides: Guides) -> Singles:
     """Without noise, (height, width, 3); ``light`` has coverage as its fourth channel."""
     import mitsuba_oidn
 
-    found: Any = mitsuba_oidn.denoise(
-        np.ascontiguousarray(light[..., :3]),
-        guides.albedo,
-        guides.normals,
-        hdr=True,
-        clean_aux=True,
-        quality=mitsuba_oidn.Quality.High,
-    )
-    return np.asarray(found, dtype=np.float32)
+    quality = mitsuba_oidn.Quality
+    height, width, _ = light.shape
+    found = np.empty((height, width, 3), np.float32)
+    strips = strips_of(height, width)
+    is_large = len(strips) > 1
+    if is_large:
+        _give_memory_back()
+    for first, last, begin, end in strips:
+        strip: Any = mitsuba_oidn.denoise(
+            np.ascontiguousarray(light[first:last, :, :3]),
+            guides.albedo[first:last],
+            guides.normals[first:last],
+            hdr=True,
+            clean_aux=True,
+            # Of large pictures the finest would take half a minute.
+            quality=quality.Balanced if is_large else quality.High,
+            # Else each strip would be looked at with an exposure of its own.
+            input_scale=1.0 if is_large else None,
+        )
+        found[begin:end] = np.asarray(strip)[begin - first : end - first]
+    return found
+
+
+def strips_of(height: int, width: int) -> list[tuple[int, int, int, int]]:
+    """Rows to denoise at once, from first to last, and which of them to keep, from begin to end.
+
+    >>> strips_of(480, 640), strips_of(900, 2048)
+    ([(0, 480, 0, 480)], [(0, 512, 0, 448), (384, 896, 448, 832), (388, 900, 832, 900)])
+    """
+    rows = max(STRIP_PIXELS // width, 6 * OVERLAP)
+    if rows >= height:
+        return [(0, height, 0, height)]
+    found = []
+    begin = 0
+    while begin < height:
+        # The last is moved up rather than made shorter: equal sizes share what is built for them.
+        first = min(max(begin - OVERLAP, 0), height - rows)
+        end = height if first + rows == height else first + rows - OVERLAP
+        found.append((first, first + rows, begin, end))
+        begin = end
+    return found
+
+
+def _give_memory_back() -> None:
+    """What tracing took, which Dr.Jit keeps for the next picture: gigabytes."""
+    import drjit
+
+    drjit.flush_malloc_cache()

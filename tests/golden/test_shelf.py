@@ -28,6 +28,9 @@ SEEN = 0.03
 """Mean difference of one shape's part of a picture by FLIP (Andersson et al. 2020: 0 is the same,
 1 is black against white as they alternate on a screen) that nobody sees."""
 
+NOISE_OF_GLASS = 0.06
+"""Light in glass goes many ways: of other samples, 64 as here, it is up to 0.05 different."""
+
 
 @pytest.fixture(scope="module", params=["osmesa", "egl"])
 def client(
@@ -65,7 +68,8 @@ def test_every_shape_looks_as_it_should(client: httpx.Client, material: str, qua
     found = pixels(Image.open(io.BytesIO(response.content)))
     expected = pixels(Image.open(path(material, quality)))
     assert found.shape == expected.shape
-    seen = {name: error for name, error in differences(expected, found).items() if error > SEEN}
+    limit = NOISE_OF_GLASS if (material, quality) == ("glass", "final") else SEEN
+    seen = {name: error for name, error in differences(expected, found).items() if error > limit}
     assert not seen
 
 
@@ -76,3 +80,11 @@ def test_the_measure_sees_another_colour_and_another_shape() -> None:
     assert min(differences(plastic, other).values()) > SEEN
     swapped = np.roll(plastic, plastic.shape[1] // COLUMNS, axis=1)
     assert min(differences(plastic, swapped).values()) > SEEN
+
+
+def test_the_measure_sees_another_shape_of_glass_and_glass_that_is_not_clear() -> None:
+    glass = pixels(Image.open(path("glass", "final")))
+    swapped = np.roll(glass, glass.shape[1] // COLUMNS, axis=1)
+    assert min(differences(glass, swapped).values()) > NOISE_OF_GLASS
+    dull = pixels(Image.open(path("plastic", "final")))
+    assert min(differences(glass, dull).values()) > NOISE_OF_GLASS
