@@ -13,6 +13,7 @@ import click
 
 from app import __version__
 from app.answers import Answer, ConvertOptions, LayoutOptions, Options, RenderOptions
+from app.cli_keys import keys
 from app.cli_options import of_gltf, of_motion, of_pictures, of_prints
 from app.errors import DocumentError, TubeloomError
 from app.formats.registry import FORMATS
@@ -46,6 +47,9 @@ def main() -> None:
 
     FILE is a program as JSON; a dash reads it from standard input.
     """
+
+
+main.add_command(keys)
 
 
 @main.command()
