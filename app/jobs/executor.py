@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Self
 
@@ -30,6 +31,11 @@ longer to start."""
 
 LONGEST_PAUSE_SECONDS = 30.0
 """Between attempts to start workers that die at their start."""
+
+
+Witness = Callable[[float, tuple[Stage, ...]], None]
+"""Told of each work that a worker did: its seconds, and its stages if it came to an end. It is
+called in the context of whoever asked."""
 
 
 class UnexpectedError(Exception):
@@ -66,6 +72,19 @@ class WorkerPool:
         """How many workers are alive and have warmed up."""
         self.draft_problem: str | None = "No worker has started yet."
         """Why drafts cannot be drawn here, if they cannot."""
+        self.lost = 0
+        """How many workers have died at work, by themselves or at the deadline."""
+        self.witness: Witness = _unwitnessed
+
+    @property
+    def waiting(self) -> int:
+        """How many works stand in line."""
+        return len(self._line)
+
+    @property
+    def busy(self) -> int:
+        """How many workers are at work."""
+        return max(self.warm - sum(not worker.died.done() for worker in self._idle), 0)
 
     async def __aenter__(self) -> Self:
         self._slots = [
@@ -97,13 +116,19 @@ class WorkerPool:
         for retry in (False, True):
             came = clock()
             worker = await self._take(first=retry)
-            waited += clock() - came
+            began = clock()
+            waited += began - came
+            stages: tuple[Stage, ...] = ()
             try:
                 reply, pieces = await self._do(worker, work, document, listener)
+                stages = reply.stages
             except WorkerDiedError:
+                self.lost += 1
                 log.warning("worker died at work", pid=worker.pid, retry=not retry)
             else:
                 return Finished(_unwrap(reply), pieces, waited, reply.stages)
+            finally:
+                self.witness(clock() - began, stages)
         raise WorkerLost("The process that worked on this document died, and so did a second one.")
 
     async def _do(
@@ -118,6 +143,7 @@ class WorkerPool:
         if not future.done():
             worker.kill()
             future.cancel()
+            self.lost += 1
             log.warning("worker stopped at the deadline", pid=worker.pid)
             raise DeadlineExceeded(
                 f"The work took longer than {self._settings.deadline_seconds:g} seconds."
@@ -210,6 +236,10 @@ class WorkerPool:
         self.draft_problem = first.draft_problem
         log.info("worker ready", pid=worker.pid, draft_problem=first.draft_problem)
         return True
+
+
+def _unwitnessed(_seconds: float, _stages: tuple[Stage, ...]) -> None:
+    """Where nobody wants to know."""
 
 
 def _unwrap(reply: Reply) -> Answer | Unchanged:
