@@ -76,6 +76,8 @@ def serve(host: str | None, port: int | None, workers: int | None) -> None:
         log_config=None,
         access_log=False,
         server_header=False,
+        proxy_headers=bool(settings.trusted_proxies),
+        forwarded_allow_ips=list(settings.trusted_proxies),
     )
 
 

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
 from fastapi import FastAPI
 from starlette.exceptions import HTTPException
+from starlette.middleware.cors import CORSMiddleware
 
 from app import __version__
 from app.api import catalogue, docs, health, programs, schema
+from app.api.bodies import HeldBodies
+from app.api.cross_origin import EXPOSED_HEADERS, HEADERS, METHODS
+from app.api.defences import Defences
+from app.api.guard import Guard
 from app.api.journal import Journal
+from app.api.keyring import Keyring
 from app.api.problems import KINDS, answer_problem
 from app.jobs.executor import WorkerPool
 from app.settings import Settings
 from app.settings import settings as settings_of_process
+from app.store.database import Database
 
 DESCRIPTION = """
 Lays out the hyperedges of a posted program as smooth tubes in three dimensions.
@@ -31,9 +39,15 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        async with WorkerPool(chosen) as pool:
-            app.state.pool = pool
-            yield
+        database = Database(chosen.database_url)
+        await asyncio.to_thread(database.migrate)
+        app.state.database, app.state.keyring = database, Keyring(database)
+        try:
+            async with WorkerPool(chosen) as pool:
+                app.state.pool = pool
+                yield
+        finally:
+            await asyncio.to_thread(database.close)
 
     app = FastAPI(
         title="Tubeloom",
@@ -49,9 +63,26 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         telemetry={"tracing": False, "metrics": False, "logs": False},
     )
     app.state.settings = chosen
+    app.state.held_bodies = HeldBodies(chosen.max_held_bytes)
+    _protect(app, chosen)
     app.add_middleware(Journal)
     for router in (programs.router, catalogue.router, health.router, docs.router):
         app.include_router(router)
     app.router.routes.append(docs.assets())
     app.openapi = lambda: schema.openapi(app)  # type: ignore[method-assign]  # FastAPI's own way
     return app
+
+
+def _protect(app: FastAPI, settings: Settings) -> None:
+    """Put before the routes what the settings ask for; what is added last stands outermost."""
+    if settings.needs_keys or settings.rate_per_address or settings.budget_seconds:
+        app.add_middleware(Guard, settings=settings)
+    if settings.cors_origins:
+        app.add_middleware(
+            CORSMiddleware,
+            allow_origins=settings.cors_origins,
+            allow_methods=METHODS,
+            allow_headers=HEADERS,
+            expose_headers=EXPOSED_HEADERS,
+        )
+    app.add_middleware(Defences, settings=settings)

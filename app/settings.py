@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+import ipaddress
 from functools import lru_cache
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic import BeforeValidator, Field
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
+
+
+def _parted(value: Any) -> Any:
+    """What stands between commas, where it comes as one text."""
+    if isinstance(value, str):
+        return tuple(part.strip() for part in value.split(",") if part.strip())
+    return value
+
+
+Names = Annotated[tuple[str, ...], NoDecode, BeforeValidator(_parted)]
 
 
 class Settings(BaseSettings):
@@ -31,7 +42,38 @@ class Settings(BaseSettings):
         description="postgresql://… or sqlite:///…; left out, SQLite in the data folder.",
     )
 
+    auth: Literal["auto", "required", "off"] = Field(
+        "auto", description="Whether keys are needed; auto: unless only this machine is served."
+    )
+    rate_per_key: str | None = Field(
+        None, description="Most requests with one key, such as 20/second; 600/minute."
+    )
+    rate_per_address: str | None = Field(
+        None, description="Most requests from one address, where they come without a key."
+    )
+    budget_seconds: float | None = Field(
+        None, gt=0, description="Work done for one key or address in a minute, in seconds."
+    )
+    cors_origins: Names = Field(
+        (), description="Origins whose pages may call, with commas between them, or *."
+    )
+    hosts: Names = Field(
+        (),
+        description="Host names that are answered to; left out, all where keys are needed, and "
+        "those of this machine where they are not.",
+    )
+    trusted_proxies: Names = Field(
+        (), description="Addresses of proxies whose X-Forwarded-For is believed."
+    )
+    traces: str | None = Field(
+        None, description="URL of an OpenTelemetry collector (OTLP over HTTP) that gets spans."
+    )
+
     max_body_bytes: int = Field(32 * 1024 * 1024, ge=1)
+    max_held_bytes: int = Field(
+        512 * 1024 * 1024, ge=1, description="Of all bodies that are read or worked on at a time."
+    )
+    upload_seconds: float = Field(60.0, gt=0, description="Longest that a body may take to come.")
     max_waiting: int = Field(64, ge=0, description="Requests that may wait for a worker.")
     deadline_seconds: float = Field(60.0, gt=0, description="Longest work on one request.")
 
@@ -59,6 +101,19 @@ class Settings(BaseSettings):
     max_print_triangles: int = Field(
         2_000_000, ge=1, description="Of what a print is made from, before tubes are united."
     )
+
+    @property
+    def is_local(self) -> bool:
+        """Whether only this machine can reach the service."""
+        try:
+            return ipaddress.ip_address(self.host).is_loopback
+        except ValueError:
+            return self.host == "localhost"
+
+    @property
+    def needs_keys(self) -> bool:
+        """Whether requests must come with a key."""
+        return self.auth == "required" or (self.auth == "auto" and not self.is_local)
 
     @property
     def database_url(self) -> str:

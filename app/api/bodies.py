@@ -2,23 +2,60 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from starlette.requests import Request
 
 from app.api.negotiation import media_type_of
-from app.api.problems import BodyTooLargeError, UnsupportedMediaTypeError
+from app.api.problems import BodyTooLargeError, SlowUploadError, UnsupportedMediaTypeError
+from app.errors import Overloaded
+from app.settings import Settings
 
 FORM = "application/x-www-form-urlencoded"
 """What ``curl --data-binary`` says of whatever it sends; taken for JSON out of kindness."""
 
 
+@dataclass(slots=True)
+class HeldBodies:
+    """Bodies of all requests that are being served: ``bytes`` now, and ``most`` at a time."""
+
+    most: int
+    bytes: int = 0
+
+    def hold(self, request: Request, size: int) -> None:
+        """Count ``size`` bytes for ``request``. Raises `Overloaded` where that is too much."""
+        if self.bytes + size > self.most:
+            raise Overloaded("Too much is being read already; try again soon.")
+        self.bytes += size
+        state = request.scope.setdefault("state", {})
+        state["held_bytes"] = state.get("held_bytes", 0) + size
+
+    def release(self, size: int) -> None:
+        """Give back what a request held that has been answered."""
+        self.bytes -= size
+
+
 async def read_document(request: Request, limit: int) -> bytes:
     """The body of ``request``, of at most ``limit`` bytes.
 
-    Raises `UnsupportedMediaTypeError` and `BodyTooLargeError`, the latter as soon as it is known.
+    Raises `UnsupportedMediaTypeError`, `SlowUploadError`, `Overloaded` where too much is being
+    read at a time, and `BodyTooLargeError`, the latter as soon as it is known.
     """
     _check_is_json(request.headers)
+    settings: Settings = request.app.state.settings
+    try:
+        async with asyncio.timeout(settings.upload_seconds):
+            return await _read(request, limit)
+    except TimeoutError:
+        raise SlowUploadError(
+            f"The body did not come within {settings.upload_seconds:g} seconds."
+        ) from None
+
+
+async def _read(request: Request, limit: int) -> bytes:
+    held: HeldBodies = request.app.state.held_bodies
     declared = request.headers.get("content-length", "")
     if declared.isdecimal() and int(declared) > limit:
         raise BodyTooLargeError(_too_large(limit))
@@ -27,6 +64,7 @@ async def read_document(request: Request, limit: int) -> bytes:
         body += chunk
         if len(body) > limit:
             raise BodyTooLargeError(_too_large(limit))
+        held.hold(request, len(chunk))
     return bytes(body)
 
 

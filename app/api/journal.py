@@ -95,6 +95,8 @@ class Journal:
                 if status == CLIENT_GONE:
                     await problem_response(Request(scope), error)(scope, receive, note)
             finally:
+                if held := scope["state"].get("held_bytes"):
+                    scope["app"].state.held_bodies.release(held)
                 log.info(
                     "request",
                     method=scope["method"],

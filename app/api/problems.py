@@ -43,7 +43,9 @@ RETRY_AFTER_SECONDS = 2
 
 
 class RefusalError(Exception):
-    """A request that HTTP alone is enough to refuse."""
+    """A request that HTTP alone is enough to refuse; ``headers`` say more of it."""
+
+    headers: Mapping[str, str] | None = None
 
 
 class NotAcceptableError(RefusalError):
@@ -60,6 +62,44 @@ class UnsupportedMediaTypeError(RefusalError):
 
 class BodyTooLargeError(RefusalError):
     """The body has more bytes than the settings allow."""
+
+
+class SlowUploadError(RefusalError):
+    """The body did not come in time."""
+
+
+class NoKeyError(RefusalError):
+    """A key is needed, and there is none, or it is not valid."""
+
+    def __init__(self, detail: str, *, given: bool) -> None:
+        super().__init__(detail)
+        error = ', error="invalid_token"' if given else ""
+        self.headers = {"WWW-Authenticate": f'Bearer realm="tubeloom"{error}'}
+
+
+class WrongScopeError(RefusalError):
+    """The key is valid, but not good for this."""
+
+    def __init__(self, scope: str) -> None:
+        super().__init__(f"This needs a key with the scope {scope}.")
+        challenge = f'Bearer realm="tubeloom", error="insufficient_scope", scope="{scope}"'
+        self.headers = {"WWW-Authenticate": challenge}
+
+
+class TooManyRequestsError(RefusalError):
+    """Whoever asks has asked for too much lately."""
+
+    def __init__(self, detail: str, headers: Mapping[str, str]) -> None:
+        super().__init__(detail)
+        self.headers = headers
+
+
+class WrongHostError(RefusalError):
+    """The request names a host that this service is not."""
+
+
+class ForeignPageError(RefusalError):
+    """A page of another origin, which is not among those allowed, wants to change something."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +135,12 @@ KINDS: Mapping[type[Exception], Kind] = {
     UnsupportedMediaTypeError: Kind(415, "unsupported-media-type", "The body is not plain JSON."),
     ContradictionError: Kind(422, "contradiction", "The query contradicts itself."),
     BodyTooLargeError: Kind(413, "body-too-large", "The body has too many bytes."),
+    SlowUploadError: Kind(408, "slow-upload", "The body did not come in time."),
+    NoKeyError: Kind(401, "no-key", "A valid key is needed."),
+    WrongScopeError: Kind(403, "wrong-scope", "The key is not good for this."),
+    ForeignPageError: Kind(403, "foreign-page", "Pages of this origin are not allowed."),
+    WrongHostError: Kind(421, "wrong-host", "This service does not answer for that host."),
+    TooManyRequestsError: Kind(429, "too-many-requests", "Too much was asked lately."),
 }
 
 UNEXPECTED = Kind(500, "unexpected-error", "Something went wrong that should not.")
@@ -178,7 +224,7 @@ def _parameter_detail(fault: Mapping[str, Any]) -> str:
 
 def _headers(error: Exception) -> Mapping[str, str] | None:
     match error:
-        case HTTPException():
+        case HTTPException() | RefusalError():
             return error.headers
         case Overloaded() | StoreUnavailable():
             return {"Retry-After": str(RETRY_AFTER_SECONDS)}

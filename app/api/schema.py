@@ -79,13 +79,26 @@ _BINARY = {"type": "string", "format": "binary"}
 
 _PROBLEMS: Mapping[int, str] = {
     400: "A parameter, or the document, does not follow its schema.",
+    401: "A valid key is needed.",
+    403: "The key is not good for this, or a page of a foreign origin asks.",
     406: "No format fits what is accepted.",
+    408: "The body did not come in time.",
     413: "The document exceeds a limit.",
     415: "The body is not plain JSON.",
+    421: "The service does not answer for the host that is named.",
     422: "The document contradicts itself or cannot be printed, or has too many pixels.",
+    429: "Too much was asked lately; `Retry-After` says when to try again.",
     500: "A worker process died over the document, twice.",
     503: "The service is busy, or cannot draw.",
     504: "The work took too long.",
+}
+
+
+_KEY = {
+    "type": "http",
+    "scheme": "bearer",
+    "description": "An API key, as `tubeloom keys create` makes them. A service that serves its "
+    "own machine alone needs none.",
 }
 
 
@@ -151,6 +164,8 @@ def openapi(app: FastAPI) -> dict[str, Any]:
         schemas = described.setdefault("components", {}).setdefault("schemas", {})
         schemas.update(ours["$defs"])
         described["components"]["schemas"] = dict(sorted(schemas.items()))
+        described["components"]["securitySchemes"] = {"key": _KEY}
+        described["security"] = [{}, {"key": []}]
         app.openapi_schema = described
     return app.openapi_schema
 

@@ -84,14 +84,25 @@ class ScopeTable:
         for line, scope in lines.items():
             method, _, path = line.partition(" ")
             (patterns if "{" in path else self._plain).setdefault(path, {})[method] = scope
-        self._patterns = [(re.compile(_regex(path)), found) for path, found in patterns.items()]
+        self._patterns = [
+            (re.compile(_regex(path)), path, found) for path, found in patterns.items()
+        ]
 
     def methods(self, path: str) -> Mapping[str, Scope | None] | None:
         """What each method on ``path`` needs; ``None`` where nothing is."""
-        found = self._plain.get(path)
-        if found is not None:
-            return found
-        return next((each for pattern, each in self._patterns if pattern.fullmatch(path)), None)
+        return self._find(path)[1]
+
+    def template(self, path: str) -> str | None:
+        """How the line for ``path`` writes it; ``None`` where there is none."""
+        return self._find(path)[0]
+
+    def _find(self, path: str) -> tuple[str | None, dict[str, Scope | None] | None]:
+        if path in self._plain:
+            return path, self._plain[path]
+        for pattern, template, found in self._patterns:
+            if pattern.fullmatch(path):
+                return template, found
+        return None, None
 
 
 def _regex(path: str) -> str:
