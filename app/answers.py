@@ -8,6 +8,29 @@ from typing import TypeAlias
 
 from app.output.effort import Effort
 from app.output.media import Compression, Motion, Parts, Quality, SceneFormat
+from app.program.changes import Changes
+
+
+@dataclass(frozen=True, slots=True)
+class Delta:
+    """What of a stored program changed between two of its revisions, ``since`` and ``revision``.
+
+    ``items`` and ``hyperedges`` are to be shown anew or for the first time.
+    """
+
+    since: int
+    revision: int
+    items: frozenset[str]
+    hyperedges: frozenset[str]
+    removed_items: tuple[str, ...] = ()
+    removed_hyperedges: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        """Always the same text: the order within a set is another one in every process."""
+        return (
+            f"Delta({self.since}, {self.revision}, {sorted(self.items)}, "
+            f"{sorted(self.hyperedges)}, {self.removed_items}, {self.removed_hyperedges})"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +44,7 @@ class RenderOptions:
     Pictures are drawn in ``quality``, a final one with ``effort``. What moves has ``frames`` in
     ``seconds``, and a glTF scene moves if there is a ``motion``. A ``sheet`` shows the scene from
     several sides; a ``sweep``, over one or two axes such as ``/style/halo=0,0.3``, shows variations
-    of the document beside each other.
+    of the document beside each other. With a ``delta``, glTF has only what changed.
     """
 
     format: SceneFormat = SceneFormat.GLB
@@ -39,6 +62,7 @@ class RenderOptions:
     seconds: float = 3.0
     sheet: bool = False
     sweep: tuple[str, ...] = ()
+    delta: Delta | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +81,54 @@ class ConvertOptions:
     target: str = "tubeloom"
 
 
-Options: TypeAlias = RenderOptions | LayoutOptions | ConvertOptions
+@dataclass(frozen=True, slots=True)
+class Replacement:
+    """Another document, in the format ``source``, instead of the one that there is, if any."""
+
+    data: bytes
+    source: str = "tubeloom"
+
+
+@dataclass(frozen=True, slots=True)
+class JsonPatch:
+    """A list of operations on the document, as JSON (RFC 6902)."""
+
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class MergePatch:
+    """A document in which what differs stands, as JSON (RFC 7396)."""
+
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Edits:
+    """Edits by what they mean, as JSON; see `app.program.edits`."""
+
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Restoration:
+    """The document and the layout of an older revision, to the last byte."""
+
+    document: bytes
+    layout: bytes
+
+
+Change: TypeAlias = Replacement | JsonPatch | MergePatch | Edits | Restoration
+
+
+@dataclass(frozen=True, slots=True)
+class ReviseOptions:
+    """Make the next revision of a stored program."""
+
+    change: Change
+
+
+Options: TypeAlias = RenderOptions | LayoutOptions | ConvertOptions | ReviseOptions
 
 
 def is_slow(options: Options) -> bool:
@@ -98,6 +169,22 @@ class Unchanged:
     """The asker has this answer already."""
 
     etag: str
+
+
+@dataclass(frozen=True, slots=True)
+class Revised:
+    """A revision of a stored program: its document in canonical form, and its layout as bytes.
+
+    ``changes`` are those since the revision before; of a first one, everything is added.
+    """
+
+    document: bytes
+    layout: bytes
+    digest: str
+    name: str | None
+    items: int
+    hyperedges: int
+    changes: Changes
 
 
 def is_known(etag: str, known: frozenset[str]) -> bool:

@@ -23,7 +23,9 @@ def film(program: Program, artist: Artist) -> bytes:
     """The scene moving, as the options wish."""
     options, view = artist.options, program.view
     width, height = size_of_one_eye(view, options.width, options.height)
-    scene = make_scene(program, width / height, artist.progress, height=height)
+    scene = make_scene(
+        program, width / height, artist.progress, height=height, layout=artist.layout
+    )
     cameras = cameras_of(scene, options.motion or "turntable", options.frames)
     artist.count = len(cameras) * (1 if view.stereo is None else 2)
     frames = artist.views(scene, view, cameras, options.width, options.height)
@@ -36,7 +38,9 @@ def contact_sheet(program: Program, artist: Artist) -> Image:
     options = artist.options
     page = Sheet(options.width, options.height, 2, 3, _background(program))
     width, height = size_of_one_eye(program.view, *page.cell)
-    scene = make_scene(program, width / height, artist.progress, height=height)
+    scene = make_scene(
+        program, width / height, artist.progress, height=height, layout=artist.layout
+    )
     views = viewpoints(scene)
     artist.count = len(views) * (1 if program.view.stereo is None else 2)
     cameras = [camera for _, camera in views]

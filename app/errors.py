@@ -8,6 +8,7 @@
     │   ├── InvalidDocument         it is JSON, but does not follow the schema
     │   ├── InconsistentDocument    it follows the schema, but contradicts itself
     │   │   └── ImpossibleSweep     what is to be varied is not in it, or not by such values
+    │   ├── PatchConflict           a patch does not fit what there is
     │   ├── DocumentTooLarge        it has more of something than the limits allow
     │   └── Unprintable             something in it has no closed body
     ├── UnknownName                 a format, notation, palette or material that does not exist
@@ -16,6 +17,9 @@
     ├── WorkerLost                  a worker process died twice over the same work
     ├── DeadlineExceeded            the work took longer than it may
     ├── Overloaded                  too much work is waiting already
+    ├── NotStored                   no such program, revision, job or result is stored
+    ├── Outdated                    somebody else changed a stored program first
+    ├── NothingToUndo               there is no change to take back, or to make again
     └── StoreUnavailable            the database or the object store does not answer
 """
 
@@ -75,6 +79,10 @@ class ImpossibleSweep(InconsistentDocument):
     """The document has no such variations as are asked for."""
 
 
+class PatchConflict(DocumentError):
+    """A patch tests for, or changes, what is not there."""
+
+
 class DocumentTooLarge(DocumentError):
     """The document exceeds a limit of this service."""
 
@@ -112,6 +120,18 @@ class DeadlineExceeded(TubeloomError):
 
 class Overloaded(TubeloomError):
     """The service has more work waiting than it accepts."""
+
+
+class NotStored(TubeloomError):
+    """There is no such program, revision, job or result (any more)."""
+
+
+class Outdated(TubeloomError):
+    """Somebody else changed a stored program first."""
+
+
+class NothingToUndo(TubeloomError):
+    """There is no change that could be taken back, or made again."""
 
 
 class StoreUnavailable(TubeloomError):

@@ -20,6 +20,7 @@ from app.output.clearance_numbers import Verdict
 from app.placement.flat import flattened
 from app.placement.place import place
 from app.placement.placement import Placement
+from app.placement.standing import Standing
 from app.program.model import Program
 
 Progress = Callable[[str, float], None]
@@ -38,11 +39,20 @@ def silent(_stage: str, _share: float) -> None:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Layout:
-    """A program with its placement and its routing."""
+    """A program with its placement and its routing.
+
+    ``hues`` (h,) say which colour of the palette each hyperedge has.
+    """
 
     program: Program
     placement: Placement
     routing: Routing
+    hues: Indices
+
+    @property
+    def standing(self) -> Standing:
+        """Where the items stand, for whoever places them after an edit."""
+        return Standing.of(self.program, self.placement)
 
 
 def lay_out(
@@ -50,18 +60,22 @@ def lay_out(
 ) -> Layout:
     """The layout that the document's ``layout`` wishes for.
 
-    With the layout of a ``previous`` state of the program, hyperedges of the same id keep their
-    curves to the last bit, unless their attachments moved or something new is in their way. In a
-    flat drawing they go where they would without any others.
+    With the layout of a ``previous`` state of the program, items that have not changed stay where
+    they are, and hyperedges of the same id keep their colours, and their curves to the last bit,
+    unless their attachments moved or something new is in their way. In a flat drawing they go where
+    they would without any others.
     """
     progress("placing items", 0.1)
-    placement = place(program, load_notation(program.notation))
+    standing = None if previous is None else previous.standing
+    placement = place(program, load_notation(program.notation), standing)
     progress("laying out hyperedges", 0.2)
     wishes = program.layout
+    hues = _hues(program, previous)
     if wishes.dimensions == 2:
-        flat = flattened(placement, program)
+        flat = shown(program, placement)
         curves = wishes.curves or _usual_curves(program)
-        return Layout(program, flat, route_flat(flat, curves=curves, fidelity=wishes.fidelity))
+        routing = route_flat(flat, curves=curves, fidelity=wishes.fidelity)
+        return Layout(program, flat, routing, hues)
     routing = route(
         placement,
         curves=wishes.curves or _usual_curves(program),
@@ -72,7 +86,12 @@ def lay_out(
         previous=None if previous is None else _previous(program, previous),
         progress=lambda share: progress("laying out hyperedges", 0.2 + 0.2 * share),
     )
-    return Layout(program, placement, routing)
+    return Layout(program, placement, routing, hues)
+
+
+def shown(program: Program, placement: Placement) -> Placement:
+    """The placement as it is shown: flattened, where the document wishes for a flat drawing."""
+    return flattened(placement, program) if program.layout.dimensions == 2 else placement
 
 
 def judge(layout: Layout) -> Verdict | None:
@@ -96,6 +115,18 @@ def _join_heights(program: Program) -> Floats:
         ],
         dtype=np.float64,
     )
+
+
+def _hues(program: Program, previous: Layout | None) -> Indices:
+    """Colours (h,) by number: those of before, and for new hyperedges the first that are free."""
+    if previous is None:
+        return np.arange(len(program.hyperedges))
+    numbers = _numbers(program, previous.program)
+    hues = np.where(numbers < 0, -1, previous.hues[numbers] if len(previous.hues) else -1)
+    free = np.setdiff1d(np.arange(len(hues)), hues, assume_unique=True)
+    new = np.flatnonzero(hues < 0)
+    hues[new] = free[: len(new)]
+    return hues
 
 
 def _previous(program: Program, previous: Layout) -> Previous | None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from app.answers import RenderOptions
-from app.layout import Preview, Progress
+from app.layout import Layout, Preview, Progress
 from app.output.draft import draw_views
 from app.output.png import encode_png
 from app.output.stereo import anaglyph, side_by_side
@@ -39,15 +39,16 @@ def size_of_one_eye(view: View, width: int, height: int) -> tuple[int, int]:
 class Artist:
     """Draws what ``options`` ask for, in time, and notes what the pictures cost.
 
-    ``count`` is how many pictures there will be, each eye's counted; when the clock
-    (`time.monotonic`) shows ``deadline`` all final ones should be there, in as good a quality as
-    there was time for.
+    ``layout`` is the program's, where it is known. ``count`` is how many pictures there will be,
+    each eye's counted; when the clock (`time.monotonic`) shows ``deadline`` all final ones should
+    be there, in as good a quality as there was time for.
     """
 
     options: RenderOptions
     deadline: float
     progress: Progress
     preview: Preview | None = None
+    layout: Layout | None = None
     count: int = 1
     _finals: list[Final] = field(default_factory=list)
     _drawn: int = 0

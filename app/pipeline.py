@@ -12,6 +12,8 @@ from app.answers import (
     LayoutOptions,
     Options,
     RenderOptions,
+    Revised,
+    ReviseOptions,
     Unchanged,
     is_known,
 )
@@ -19,6 +21,7 @@ from app.compositions import contact_sheet, film, variations
 from app.errors import PictureTooLarge
 from app.formats import registry
 from app.layout import Preview, Progress, judge, lay_out, silent
+from app.layout_record import read_layout
 from app.output.draft import draw_draft
 from app.output.gltf import write_glb, write_gltf
 from app.output.gltf_motion import Animation
@@ -34,6 +37,8 @@ from app.pictures import BEGUN, Artist, size_of_one_eye
 from app.program.collection import collection_paused
 from app.program.digest import canonical
 from app.program.model import Program
+from app.revising import revise
+from app.scene.scene import Scene
 from app.settings import Settings
 from app.staging import (
     Staged,
@@ -43,6 +48,7 @@ from app.staging import (
     make_scene,
     make_tubes,
     stage,
+    stage_changes,
 )
 from app.tubes.patches import patch_pairs
 
@@ -57,18 +63,24 @@ def answer(
     known: frozenset[str] = frozenset(),
     progress: Progress = silent,
     preview: Preview | None = None,
-) -> Answer | Unchanged:
+    layout: bytes | None = None,
+) -> Answer | Unchanged | Revised:
     """Whatever ``options`` ask of the document ``data``.
 
-    ``known`` are validators of answers that the asker has. Raises what `app.errors` lists.
+    ``known`` are validators of answers that the asker has. The ``layout`` of a stored program is
+    what `app.layout_record` wrote; it is shown, rather than a new one. Raises what `app.errors`
+    lists.
     """
     match options:
         case RenderOptions():
-            return render(data, options, settings, known, progress, preview)
+            return render(data, options, settings, known, progress, preview, layout)
         case LayoutOptions():
-            return layout(data, options, settings, known, progress)
+            return layout_of(data, options, settings, known, progress, layout)
         case ConvertOptions():
             return convert(data, options, settings, known, progress)
+        case ReviseOptions():
+            with collection_paused():
+                return revise(data, layout, options.change, settings, progress)
 
 
 def render(
@@ -78,6 +90,7 @@ def render(
     known: frozenset[str] = frozenset(),
     progress: Progress = silent,
     preview: Preview | None = None,
+    layout: bytes | None = None,
 ) -> Answer | Unchanged:
     """The scene of the document, in ``options.format``.
 
@@ -88,12 +101,13 @@ def render(
     with collection_paused():
         progress("reading", 0.0)
         program = registry.read(options.source, data, settings)
-        etag = validator(program, options)
+        etag = validator(program, options, layout)
         if is_known(etag, known):
             return Unchanged(etag)
+        laid = None if layout is None else read_layout(program, layout)
         seconds = TIME_FOR_PICTURES * settings.deadline_seconds
         deadline = began + min(options.effort.time_limit or seconds, seconds)
-        artist = Artist(options, deadline, progress, preview)
+        artist = Artist(options, deadline, progress, preview, laid)
         body = _body(program, options, settings, artist, progress)
         progress("done", 1.0)
         return Answer(
@@ -120,9 +134,15 @@ def _body(
         return film(program, artist)
     if options.format is SceneFormat.PNG:
         return _picture(program, artist)
+    if options.delta is not None:
+        laid = artist.layout or lay_out(program, progress=progress)
+        aspect = options.width / options.height
+        return _write_scene(stage_changes(laid, options.delta, aspect, options.height), options)
     sweeping = _sweeping(program, options, settings, progress)
     height = None if options.format.is_printed else options.height
-    staged = stage(program, options.width / options.height, progress, sweeping, height)
+    staged = stage(
+        program, options.width / options.height, progress, sweeping, height, artist.layout
+    )
     if options.format.is_printed:
         refuse_too_many(triangles_of(staged.scene, options.parts), settings.max_print_triangles)
     progress("writing", 0.6)
@@ -132,7 +152,9 @@ def _body(
 def _picture(program: Program, artist: Artist) -> bytes:
     options, view = artist.options, program.view
     width, height = size_of_one_eye(view, options.width, options.height)
-    scene = make_scene(program, width / height, artist.progress, height=height)
+    scene = make_scene(
+        program, width / height, artist.progress, height=height, layout=artist.layout
+    )
     artist.count = 1 if view.stereo is None else 2
     if options.quality == "draft" and view.stereo is None:
         artist.progress("drawing", BEGUN)
@@ -150,7 +172,15 @@ def _sweeping(
 
 
 def _write(staged: Staged, options: RenderOptions) -> bytes:
-    scene = staged.scene
+    if options.format is not SceneFormat.SVG:
+        return _write_scene(staged.scene, options)
+    laid = staged.layout
+    return write_svg(
+        laid.program, laid.placement, laid.routing, staged.scene, options.width, options.height
+    )
+
+
+def _write_scene(scene: Scene, options: RenderOptions) -> bytes:
     packing = Packing(options.compress, options.merge)
     animation = None if options.motion is None else Animation(options.motion, options.seconds)
     match options.format:
@@ -162,29 +192,26 @@ def _write(staged: Staged, options: RenderOptions) -> bytes:
             return write_stl(scene, options.parts, options.scale)
         case SceneFormat.THREE_MF:
             return write_3mf(scene, options.parts, options.scale)
-        case SceneFormat.SVG:
-            laid = staged.layout
-            return write_svg(
-                laid.program, laid.placement, laid.routing, scene, options.width, options.height
-            )
         case other:
             raise ValueError(f"{other} is a picture.")
 
 
-def layout(
+def layout_of(
     data: bytes,
     options: LayoutOptions,
     settings: Settings,
     known: frozenset[str] = frozenset(),
     progress: Progress = silent,
+    layout: bytes | None = None,
 ) -> Answer | Unchanged:
     """The numbers of the document's layout, as JSON."""
     progress("reading", 0.0)
     program = registry.read(options.source, data, settings)
-    etag = validator(program, options)
+    etag = validator(program, options, layout)
     if is_known(etag, known):
         return Unchanged(etag)
-    laid = lay_out(program, progress=progress)
+    laid = None if layout is None else read_layout(program, layout)
+    laid = laid or lay_out(program, progress=progress)
     progress("proving clearance", 0.5)
     verdict = judge(laid)
     progress("writing", 0.6)
@@ -213,10 +240,13 @@ def convert(
     return Answer(body, registry.FORMATS[options.target].media_type, etag, program.name)
 
 
-def validator(program: Program, options: object) -> str:
-    """A strong validator: digest of the document, of what was asked, and of our version."""
+def validator(program: Program, options: object, layout: bytes | None = None) -> str:
+    """A strong validator: digest of the document, of what was asked, and of our version.
+
+    A ``layout`` that is given counts too: the same document may be laid out in another way.
+    """
     asked = f"{__version__}\n{options!r}\n".encode()
-    return hashlib.sha256(asked + canonical(program)).hexdigest()[:32]
+    return hashlib.sha256(asked + canonical(program) + (layout or b"")).hexdigest()[:32]
 
 
 def _is_crowd(program: Program, options: RenderOptions) -> bool:

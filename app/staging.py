@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
+import numpy as np
+
+from app.answers import Delta
 from app.arrays import Floats
 from app.hyperedges.routing import Routing
 from app.layout import Layout, Progress, lay_out, silent
@@ -44,9 +47,10 @@ def make_scene(
     progress: Progress = silent,
     sweeping: Sweeping | None = None,
     height: int | None = None,
+    layout: Layout | None = None,
 ) -> Scene:
     """The scene alone of `stage`."""
-    return stage(program, aspect, progress, sweeping, height).scene
+    return stage(program, aspect, progress, sweeping, height, layout).scene
 
 
 def stage(
@@ -55,19 +59,61 @@ def stage(
     progress: Progress = silent,
     sweeping: Sweeping | None = None,
     height: int | None = None,
+    layout: Layout | None = None,
 ) -> Staged:
     """Place, route, make tubes, assemble: everything between reading and writing.
 
-    Tubes are what ``sweeping`` (`make_tubes`) makes, no finer than shows in a picture ``height``
-    pixels high, where there is one.
+    Where there is a ``layout`` already, it is shown. Tubes are what ``sweeping`` (`make_tubes`)
+    makes, no finer than shows in a picture ``height`` pixels high, where there is one.
     """
-    laid = lay_out(program, progress=progress)
+    laid = layout or lay_out(program, progress=progress)
     progress("making tubes", 0.4)
     tolerance = _tolerance(laid, aspect, height)
     tubes = (sweeping or make_tubes)(program, laid.routing, tolerance)
     progress("assembling the scene", 0.5)
     notation = load_notation(program.notation)
-    return Staged(laid, assemble(program, notation, laid.placement, tubes, aspect))
+    return Staged(laid, assemble(program, notation, laid.placement, tubes, aspect, laid.hues))
+
+
+def stage_changes(layout: Layout, delta: Delta, aspect: float, height: int) -> Scene:
+    """A scene of what changed alone: items and hyperedges, each a node of its own.
+
+    The ground and its shadows are those of the whole scene; the camera looks at what changed.
+    """
+    whole, placement = layout.program, layout.placement
+    items = [number for number, item in enumerate(whole.items) if item.id in delta.items]
+    hyperedges = np.array(
+        [number for number, each in enumerate(whole.hyperedges) if each.id in delta.hyperedges],
+        dtype=np.int64,
+    )
+    program = whole.model_copy(
+        update={
+            "items": tuple(whole.items[number] for number in items),
+            "hyperedges": tuple(whole.hyperedges[number] for number in hyperedges.tolist()),
+            "style": whole.style.model_copy(update={"ground": False}),
+        }
+    )
+    shown = replace(
+        placement,
+        centers=placement.centers[items],
+        rotations=placement.rotations[items],
+        sizes=placement.sizes[items],
+        solids=tuple(placement.solids[number] for number in items),
+        labels=tuple(placement.labels[number] for number in items),
+        radii=placement.radii[hyperedges],
+    )
+    tolerance = _tolerance(layout, aspect, height)
+    if isinstance(tolerance, np.ndarray):
+        tolerance = tolerance[hyperedges]
+    tubes = make_tubes(program, layout.routing.part(hyperedges), tolerance)
+    notation = load_notation(program.notation)
+    scene = assemble(program, notation, shown, tubes, aspect, layout.hues[hyperedges])
+    removed = {
+        "items": list(delta.removed_items),
+        "hyperedges": list(delta.removed_hyperedges),
+    }
+    told = {"since": delta.since, "revision": delta.revision, "removed": removed}
+    return replace(scene, extras={"delta": told})
 
 
 def make_tubes(program: Program, routing: Routing, tolerance: float | Floats) -> Tubes:

@@ -14,7 +14,7 @@ from typing import Self
 
 import structlog
 
-from app.answers import Answer, Options, Unchanged, is_slow
+from app.answers import Answer, Change, Options, Revised, ReviseOptions, Unchanged, is_slow
 from app.errors import DeadlineExceeded, Overloaded, WorkerLost
 from app.jobs.process import Listener, WorkerDiedError, WorkerProcess
 from app.jobs.work import Crash, Reply, Stage, Work
@@ -104,13 +104,33 @@ class WorkerPool:
         options: Options,
         known: frozenset[str] = frozenset(),
         listener: Listener | None = None,
+        layout: bytes | None = None,
     ) -> Finished:
         """Answer in a worker process. The ``listener`` hears how the work goes on.
 
-        Raises what the pipeline raises, and `Overloaded`, `DeadlineExceeded`, `WorkerLost`. When
-        the caller is cancelled, work that goes on for long is stopped.
+        A stored program's ``layout`` is shown as it is. Raises what the pipeline raises, and
+        `Overloaded`, `DeadlineExceeded`, `WorkerLost`. When the caller is cancelled, work that
+        goes on for long is stopped.
         """
-        work = Work(options, known, reports=listener is not None)
+        work = Work(options, known, reports=listener is not None, layout=layout)
+        reply, pieces, waited = await self._ask(work, document, listener)
+        outcome = _unwrap(reply)
+        if isinstance(outcome, Revised):
+            raise TypeError("A worker revised where nobody had asked for that.")
+        return Finished(outcome, pieces, waited, reply.stages)
+
+    async def revise(self, document: bytes, layout: bytes | None, change: Change) -> Revised:
+        """The next revision of a stored program, made in a worker process. Raises the same."""
+        reply, _, _ = await self._ask(Work(ReviseOptions(change), layout=layout), document, None)
+        outcome = _unwrap(reply)
+        if not isinstance(outcome, Revised):
+            raise TypeError("A worker did not revise where it was asked to.")
+        return outcome
+
+    async def _ask(
+        self, work: Work, document: bytes, listener: Listener | None
+    ) -> tuple[Reply, tuple[bytes, ...], float]:
+        """A reply, its payload, and the seconds that the work waited for a worker."""
         clock = asyncio.get_running_loop().time
         waited = 0.0
         for retry in (False, True):
@@ -126,7 +146,7 @@ class WorkerPool:
                 self.lost += 1
                 log.warning("worker died at work", pid=worker.pid, retry=not retry)
             else:
-                return Finished(_unwrap(reply), pieces, waited, reply.stages)
+                return reply, pieces, waited
             finally:
                 self.witness(clock() - began, stages)
         raise WorkerLost("The process that worked on this document died, and so did a second one.")
@@ -242,10 +262,10 @@ def _unwitnessed(_seconds: float, _stages: tuple[Stage, ...]) -> None:
     """Where nobody wants to know."""
 
 
-def _unwrap(reply: Reply) -> Answer | Unchanged:
+def _unwrap(reply: Reply) -> Answer | Unchanged | Revised:
     match reply.outcome:
-        case Answer() | Unchanged() as answer:
-            return answer
+        case Answer() | Unchanged() | Revised() as outcome:
+            return outcome
         case Crash(traceback=traceback):
             raise UnexpectedError(traceback)
         case error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from app.answers import Answer, Options, Unchanged
+from app.answers import Answer, Options, Revised, Unchanged
 from app.errors import TubeloomError
 
 
@@ -13,12 +13,13 @@ from app.errors import TubeloomError
 class Work:
     """One call of the pipeline; the document follows as raw bytes.
 
-    ``reports`` asks for a `Report` now and then before the reply.
+    ``reports`` asks for a `Report` now and then before the reply. ``layout`` is a stored program's.
     """
 
     options: Options
     known: frozenset[str] = frozenset()
     reports: bool = False
+    layout: bytes | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +40,7 @@ class Crash:
     traceback: str
 
 
-Outcome: TypeAlias = Answer | Unchanged | TubeloomError | Crash
+Outcome: TypeAlias = Answer | Unchanged | Revised | TubeloomError | Crash
 
 
 @dataclass(frozen=True, slots=True)

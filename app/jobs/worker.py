@@ -89,7 +89,13 @@ def do(
 
     try:
         outcome = pipeline.answer(
-            document, work.options, settings, work.known, note, show if work.reports else None
+            document,
+            work.options,
+            settings,
+            work.known,
+            note,
+            show if work.reports else None,
+            work.layout,
         )
     except TubeloomError as error:
         return Reply(error, _durations(stages)), b""

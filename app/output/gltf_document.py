@@ -83,10 +83,13 @@ def describe(scene: Scene, packing: Packing) -> Document:
         "rotation": _Y_UP,
         "children": list(range(1, len(nodes) + 1)),
     }
+    described: dict[str, Any] = {"name": root["name"], "nodes": [0]}
+    if scene.extras:
+        described["extras"] = scene.extras
     document: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": f"Tubeloom {__version__}"},
         "scene": 0,
-        "scenes": [{"name": root["name"], "nodes": [0]}],
+        "scenes": [described],
         "nodes": [root, *nodes],
         "cameras": [_camera(scene.camera)],
     }

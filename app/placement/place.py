@@ -14,22 +14,25 @@ from app.placement.labels import label_place
 from app.placement.placement import LabelPlace, Placement
 from app.placement.points import points_of
 from app.placement.sized import Place, Sized
+from app.placement.standing import Standing
 from app.placement.turning import UNTURNED, Quaternion, Vector, reach, then, turned
 from app.program.model import Program
 from app.solids.extents import middle_of
 from app.solids.solid import Tray
 
 
-def place(program: Program, notation: Notation) -> Placement:
+def place(program: Program, notation: Notation, standing: Standing | None = None) -> Placement:
     """The places of all items and attachments. Raises what `app.solids.csg.make_body` does.
 
     Items with positions stay exactly there; the others stand in rows within their parents, or on
-    the plane z = 0.
+    the plane z = 0. After an edit, what is ``standing`` stays there to the last bit, but for what
+    the edit concerns: new and changed items, and what holds them, which grows around them. What
+    would have to grow over others moves to a free place, with all that is in it.
     """
     relations = family(program)
     styles = [notation.item_style(item.kind) for item in program.items]
-    sized, roots = measure(program, relations, styles)
-    centers, turns = _in_world(sized, relations, roots)
+    sized, roots = measure(program, relations, styles, standing)
+    centers, turns, offsets = _in_world(sized, relations, roots)
     positions, directions, starts, owners = _attachments(program, sized, centers, turns)
     return Placement(
         centers=np.array(centers, dtype=np.float64).reshape(-1, 3),
@@ -48,34 +51,57 @@ def place(program: Program, notation: Notation) -> Placement:
             ],
             dtype=np.float64,
         ),
+        offsets=np.array(offsets, dtype=np.float64).reshape(-1, 3),
+        turns=np.array([each.turn for each in sized], dtype=np.float64).reshape(-1, 4),
     )
 
 
 def _in_world(
     sized: Sequence[Sized], relations: Family, roots: dict[int, Place]
-) -> tuple[list[Vector], list[Quaternion]]:
+) -> tuple[list[Vector], list[Quaternion], list[Vector]]:
+    """Centres and turns in the world, and offsets from the parent's origin."""
     centers: list[Vector] = [(0.0, 0.0, 0.0)] * len(sized)
     turns: list[Quaternion] = [UNTURNED] * len(sized)
+    offsets: list[Vector] = [(0.0, 0.0, 0.0)] * len(sized)
+    still = [False] * len(sized)
     for number in relations.order:
         each = sized[number]
+        parent = relations.parents[number]
+        stood = each.stood
+        if each.is_free and stood is not None and stood.alike and (parent < 0 or still[parent]):
+            # As it stood, and not computed again, which could differ in the last bit.
+            offsets[number], centers[number] = stood.offset, stood.center
+            turns[number], still[number] = stood.rotation, True
+            continue
         rise = reach(each.turn, each.size)[2] / 2 if each.lift is None else each.lift
         offset = each.item.position
         if offset is not None:
             x, y, z = each.middle
             offset = (offset[0] + x, offset[1] + y, offset[2] + z)
-        parent = relations.parents[number]
-        if parent < 0:
-            turns[number] = each.turn
-            centers[number] = (*roots[number], rise) if offset is None else offset
-            continue
-        turns[number] = then(turns[parent], each.turn)
-        if offset is None:
+        elif stood is not None and stood.alike:
+            offset = stood.offset
+        elif parent < 0:
+            offset = (*roots[number], rise)
+        else:
             offset = (*sized[parent].children[number], _ground(sized[parent]) + rise)
-        x, y, z = middle_of(sized[parent].solid)
-        moved = turned(turns[parent], (offset[0] - x, offset[1] - y, offset[2] - z))
-        x, y, z = (a + b for a, b in zip(centers[parent], moved, strict=True))
-        centers[number] = (x, y, z)
-    return centers, turns
+        offsets[number] = offset
+        if parent < 0:
+            turns[number], centers[number] = each.turn, offset
+        else:
+            turns[number] = then(turns[parent], each.turn)
+            centers[number] = _within(sized[parent], centers[parent], turns[parent], offset)
+        still[number] = stood is not None and (centers[number], turns[number]) == (
+            stood.center,
+            stood.rotation,
+        )
+    return centers, turns, offsets
+
+
+def _within(parent: Sized, center: Vector, turn: Quaternion, offset: Vector) -> Vector:
+    """Where in the world ``offset`` from the parent's origin is."""
+    x, y, z = middle_of(parent.solid)
+    moved = turned(turn, (offset[0] - x, offset[1] - y, offset[2] - z))
+    return (center[0] + moved[0], center[1] + moved[1], center[2] + moved[2])
 
 
 def _ground(parent: Sized) -> float:

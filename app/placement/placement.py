@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+import numpy as np
 
 from app.arrays import Floats, Indices
 from app.solids.solid import Size, Solid, Text
@@ -28,6 +30,9 @@ class Placement:
     ``attachment_directions`` (a, 3) follow the document's order; those of hyperedge k are
     ``attachment_starts[k]`` to ``attachment_starts[k + 1]`` (h + 1,), and ``attachment_items``
     (a,) are their items' numbers. ``radii`` (h,) are the tubes'. Document units, z up.
+
+    ``offsets`` (n, 3), from the parent's origin to the solid's centre, and ``turns`` (n, 4) are
+    within the parent; they are there where items may be placed anew after an edit.
     """
 
     centers: Floats
@@ -40,3 +45,5 @@ class Placement:
     attachment_starts: Indices
     attachment_items: Indices
     radii: Floats
+    offsets: Floats = field(default_factory=lambda: np.empty((0, 3)))
+    turns: Floats = field(default_factory=lambda: np.empty((0, 4)))

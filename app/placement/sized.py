@@ -10,7 +10,7 @@ from app.notations.notation import ItemStyle
 from app.placement.family import Family
 from app.placement.fitting import fit, shape_of, written_extent
 from app.placement.labels import front, strip
-from app.placement.turning import UNTURNED, Quaternion, from_degrees, reach, turned
+from app.placement.turning import UNTURNED, Quaternion, Vector, from_degrees, reach, turned
 from app.program import shapes
 from app.program.faults import first
 from app.program.model import Item, Program
@@ -29,13 +29,28 @@ class Footprint:
     center: Place
 
 
+@dataclass(frozen=True, slots=True)
+class Stood:
+    """Where an item stood before an edit.
+
+    ``offset`` is from its parent's origin to its solid's centre, ``center`` and ``rotation`` are in
+    the world. ``alike``: it has the looks, and so the size, that it had.
+    """
+
+    offset: Vector
+    center: Vector
+    rotation: Quaternion
+    alike: bool
+
+
 @dataclass(slots=True)
 class Sized:
     """An item with its solid.
 
     ``children`` are those without positions, by number: their solids' centres seen from above,
     relative to its origin. ``lift`` is how high its own solid's centre is over what it stands on,
-    where it does not stand there itself.
+    where it does not stand there itself. ``stood`` is where it was before an edit; ``grew`` tells
+    that it takes other room than then.
     """
 
     item: Item
@@ -46,11 +61,18 @@ class Sized:
     turn: Quaternion
     children: dict[int, Place] = field(default_factory=dict)
     lift: float | None = None
+    stood: Stood | None = None
+    grew: bool = False
 
     @property
     def is_free(self) -> bool:
         """Whether a place is still to be found."""
         return self.item.position is None
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether its place is the one it had."""
+        return self.is_free and self.stood is not None
 
     @property
     def has_own_size(self) -> bool:

@@ -32,11 +32,15 @@ def read_program(data: bytes, settings: Settings) -> Program:
     hundred. What there is too much of is refused before it is looked at.
     """
     with collection_paused():
-        document = parse(data, settings)
-        refuse_too_many(count_entries(document), settings)
-        refuse_large_trees(document, settings)
-        program = validate(Program, document)
-        check(program, settings)
+        return program_of(parse(data, settings), settings)
+
+
+def program_of(document: JsonValue, settings: Settings) -> Program:
+    """The program in a JSON value, which is checked as `read_program` checks it."""
+    refuse_too_many(count_entries(document), settings)
+    refuse_large_trees(document, settings)
+    program = validate(Program, document)
+    check(program, settings)
     return program
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from app.arrays import Floats
+from app.arrays import Floats, Indices
 from app.notations.notation import Notation
 from app.placement.placement import Placement
 from app.program.model import Program
@@ -31,13 +31,15 @@ def assemble(
     placement: Placement,
     tubes: Tubes | UnsweptTubes,
     aspect: float,
+    hues: Indices | None = None,
 ) -> Scene:
     """The scene of a program, framed for a picture of ``aspect`` (width over height).
 
     One node for each item and each hyperedge, in the order of the document, and one for the
     ground where the style wishes for it and there is something to stand on it. Where tubes are not
-    swept yet, hyperedges are a crowd without nodes. Raises `UnknownName` where there is no such
-    palette.
+    swept yet, hyperedges are a crowd without nodes. ``hues`` (h,) say which colour of the palette
+    each hyperedge takes; left out, they take one after another. Raises `UnknownName` where there
+    is no such palette.
     """
     background = (
         None if program.style.background == "transparent" else srgb_of(program.style.background)
@@ -48,11 +50,11 @@ def assemble(
     of_crowd: Farthest | None = None
     if isinstance(tubes, Tubes):
         hyperedges, tube_boxes = hyperedge_nodes(
-            program, notation, tubes, placement.radii, background, materials
+            program, notation, tubes, placement.radii, background, materials, hues
         )
         nodes, around = items + hyperedges, np.concatenate([around, tube_boxes])
     else:
-        crowd = crowd_of(program, notation, tubes, background)
+        crowd = crowd_of(program, notation, tubes, background, hues)
         of_crowd = CurveReach.of(tubes.routing).farthest
     reach = Reach.of(nodes, around)
     farthest = farther_of(reach.farthest if reach.nodes else None, of_crowd)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from app.arrays import Floats
+from app.arrays import Floats, Indices
 from app.notations.notation import HyperedgeStyle, Notation
 from app.program.model import Hyperedge, Program
 from app.scene.boxes import around_their_middles
@@ -30,10 +30,12 @@ def hyperedge_nodes(
     radii: Floats,
     background: Floats | None,
     materials: dict[Material, int],
+    hues: Indices | None = None,
 ) -> tuple[list[Node], Floats]:
     """One node for each hyperedge, in the order of the document, and their boxes (h, 2, 3).
 
-    ``radii`` (h,) are the tubes'; ``background`` is sRGB (3,) or ``None``. Vertices and boxes are
+    ``radii`` (h,) are the tubes'; ``background`` is sRGB (3,) or ``None``; ``hues`` (h,) say which
+    colour of the palette each takes, left out they take one after another. Vertices and boxes are
     relative to the node's translation. New materials join ``materials``, which numbers them.
     """
     vertices, middles, around = around_their_middles(tubes.vertices, tubes.vertex_starts)
@@ -57,7 +59,7 @@ def hyperedge_nodes(
             first_vertices[1:],
             first_faces[:-1],
             first_faces[1:],
-            _materials(program, notation, background),
+            _materials(program, notation, background, hues),
             middles.tolist(),
             radii.tolist(),
             strict=True,
@@ -87,10 +89,14 @@ def _node(
 
 
 def crowd_of(
-    program: Program, notation: Notation, tubes: UnsweptTubes, background: Floats | None
+    program: Program,
+    notation: Notation,
+    tubes: UnsweptTubes,
+    background: Floats | None,
+    hues: Indices | None = None,
 ) -> Crowd:
     """All hyperedges without nodes, in the order of the document; else as `hyperedge_nodes`."""
-    looks, chosen = _styles(program, notation, background)
+    looks, chosen = _styles(program, notation, background, hues)
     known: dict[Look, int] = {}
     surfaces = np.array([known.setdefault(look, len(known)) for look in looks], dtype=np.int64)
     return Crowd(
@@ -105,19 +111,22 @@ def crowd_of(
     )
 
 
-def _materials(program: Program, notation: Notation, background: Floats | None) -> list[Material]:
-    return make_materials(*_styles(program, notation, background))
+def _materials(
+    program: Program, notation: Notation, background: Floats | None, hues: Indices | None
+) -> list[Material]:
+    return make_materials(*_styles(program, notation, background, hues))
 
 
 def _styles(
-    program: Program, notation: Notation, background: Floats | None
+    program: Program, notation: Notation, background: Floats | None, hues: Indices | None
 ) -> tuple[list[Look], Floats]:
     """Looks (h,) and sRGB colours (h, 3): its own, or its kind's, or the palette's.
 
     Every hyperedge takes one from the palette, whether it shows it or not: so a colour given to
     one does not change the others'.
     """
-    chosen = colors(program.style.palette, len(program.hyperedges), background)
+    taken = np.arange(len(program.hyperedges)) if hues is None else hues
+    chosen = colors(program.style.palette, int(taken.max(initial=-1)) + 1, background)[taken]
     looks: list[Look] = []
     for number, hyperedge in enumerate(program.hyperedges):
         style = notation.hyperedge_style(hyperedge.kind)

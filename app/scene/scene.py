@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
 from app.arrays import Floats, Indices
@@ -125,7 +125,7 @@ class Scene:
 
     ``bounds`` (2, 3) hold the items and hyperedges, without the ground. Hyperedges are either among
     the nodes or a ``crowd``, which only glTF can show. ``halo`` is how wide a gap tubes leave in
-    those that pass behind, in radii of the one in front.
+    those that pass behind, in radii of the one in front. ``extras`` are handed through to glTF.
     """
 
     name: str
@@ -137,3 +137,4 @@ class Scene:
     bounds: Floats
     crowd: Crowd | None = None
     halo: float = 0.0
+    extras: Mapping[str, Any] = field(default_factory=dict)

@@ -1,0 +1,297 @@
+"""Stored programs and their revisions. The functions want a connection of `app.store.database`.
+
+Every change is a new revision whose number is one higher, undoing and redoing too. A revision
+knows which one's content an undo of it restores (``undo_to``), and which one's a redo
+(``redo_to``).
+"""
+
+from __future__ import annotations
+
+import time
+import zlib
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+from sqlalchemy import Connection, Row, Select, delete, func, insert, select, update
+from sqlalchemy.exc import IntegrityError
+
+from app.answers import Revised
+from app.errors import Outdated
+from app.program.changes import Changes
+from app.store.tables import programs, revisions
+
+Cause: TypeAlias = Literal["put", "patch", "edit", "undo", "redo", "delete"]
+
+_LEVEL = 1
+"""Of deflating: documents become many times smaller, at some 100 kB in a millisecond."""
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """What is known of a revision, but for its content. Times are milliseconds since 1970."""
+
+    program: str
+    number: int
+    cause: Cause
+    name: str | None
+    items: int
+    hyperedges: int
+    digest: str
+    changes: Changes
+    undo_to: int | None
+    redo_to: int | None
+    created_at: int
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """A revision with its document in canonical form, and its layout."""
+
+    record: Record
+    document: bytes
+    layout: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """A program in the list of all of them. Times are milliseconds since 1970."""
+
+    id: str
+    revision: int
+    name: str | None
+    items: int
+    hyperedges: int
+    created_at: int
+    updated_at: int
+
+
+@dataclass(frozen=True, slots=True)
+class Head:
+    """The newest revision's number, and whether the program is deleted."""
+
+    revision: int
+    is_deleted: bool
+
+
+_RECORD: tuple[Any, ...] = (
+    revisions.c.program,
+    revisions.c.number,
+    revisions.c.cause,
+    revisions.c.name,
+    revisions.c["items"],
+    revisions.c.hyperedges,
+    revisions.c.digest,
+    revisions.c.changes,
+    revisions.c.undo_to,
+    revisions.c.redo_to,
+    revisions.c.created_at,
+)
+
+
+def head(connection: Connection, program: str) -> Head | None:
+    """Where a program is, if there ever was one of that id."""
+    row = connection.execute(
+        select(programs.c.revision, programs.c.deleted_at).where(programs.c.id == program)
+    ).one_or_none()
+    return None if row is None else Head(row.revision, row.deleted_at is not None)
+
+
+def newest(connection: Connection, program: str) -> Record | None:
+    """The newest revision of a program, if there is one and it is not deleted."""
+    row = connection.execute(_newest(program, *_RECORD)).one_or_none()
+    return None if row is None else _record(row)
+
+
+def load(connection: Connection, program: str, number: int | None = None) -> Content | None:
+    """A revision (``None``: the newest) with its content, if it is kept."""
+    columns = (*_RECORD, revisions.c.document, revisions.c.layout)
+    query = _newest(program, *columns)
+    if number is not None:
+        query = select(*columns).where(
+            revisions.c.program == program,
+            revisions.c.number == number,
+            revisions.c.cause != "delete",
+        )
+    row = connection.execute(query).one_or_none()
+    if row is None:
+        return None
+    return Content(_record(row), zlib.decompress(row.document), zlib.decompress(row.layout))
+
+
+def kept_after(connection: Connection, program: str, number: int) -> list[Record]:
+    """The revisions that are kept with a higher number, the oldest first."""
+    rows = connection.execute(
+        select(*_RECORD)
+        .where(revisions.c.program == program, revisions.c.number > number)
+        .order_by(revisions.c.number)
+    )
+    return [_record(row) for row in rows]
+
+
+def listing(connection: Connection, after: str | None, limit: int) -> list[Listed]:
+    """At most ``limit`` programs in the order of their ids, from the first that follows."""
+    query = (
+        select(
+            programs.c.id,
+            programs.c.revision,
+            revisions.c.name,
+            revisions.c["items"],
+            revisions.c.hyperedges,
+            programs.c.created_at,
+            programs.c.updated_at,
+        )
+        .join(
+            revisions,
+            (revisions.c.program == programs.c.id) & (revisions.c.number == programs.c.revision),
+        )
+        .where(programs.c.deleted_at.is_(None))
+        .order_by(programs.c.id)
+        .limit(limit)
+    )
+    if after is not None:
+        query = query.where(programs.c.id > after)
+    return [Listed(*row) for row in connection.execute(query)]
+
+
+def heads(connection: Connection, since: int) -> dict[str, int]:
+    """The newest revisions' numbers of programs that changed at or after the time ``since``."""
+    rows = connection.execute(
+        select(programs.c.id, programs.c.revision).where(programs.c.updated_at >= since)
+    )
+    return {row.id: row.revision for row in rows}
+
+
+def add(
+    connection: Connection,
+    program: str,
+    before: Head | None,
+    cause: Cause,
+    revised: Revised,
+    *,
+    undo_to: int | None = None,
+    redo_to: int | None = None,
+    keep: int,
+) -> Record:
+    """Make ``revised`` the revision after ``before``, and ``keep`` so many in all.
+
+    Raises `Outdated` where somebody else made one meanwhile.
+    """
+    record = Record(
+        program,
+        _step(connection, program, before, deleted=False),
+        cause,
+        revised.name,
+        revised.items,
+        revised.hyperedges,
+        revised.digest,
+        revised.changes,
+        undo_to,
+        redo_to,
+        _now(),
+    )
+    _insert(connection, record, revised.document, revised.layout)
+    connection.execute(
+        delete(revisions).where(
+            revisions.c.program == program, revisions.c.number <= record.number - keep
+        )
+    )
+    return record
+
+
+def end(connection: Connection, program: str, before: Head) -> Record:
+    """Delete a program with all its content; what stays is its number, and that it was deleted.
+
+    Raises `Outdated` where somebody changed it meanwhile.
+    """
+    number = _step(connection, program, before, deleted=True)
+    connection.execute(delete(revisions).where(revisions.c.program == program))
+    record = Record(
+        program, number, "delete", None, 0, 0, "", Changes(whole=True), None, None, _now()
+    )
+    _insert(connection, record, b"", b"")
+    return record
+
+
+def count(connection: Connection) -> int:
+    """How many programs there are."""
+    query = select(func.count()).select_from(programs).where(programs.c.deleted_at.is_(None))
+    return int(connection.execute(query).scalar_one())
+
+
+def _step(connection: Connection, program: str, before: Head | None, *, deleted: bool) -> int:
+    """Move the head from ``before`` to the next number, unless it is elsewhere by now."""
+    now = _now()
+    if before is None:
+        row = {"id": program, "revision": 1, "created_at": now, "updated_at": now}
+        try:
+            with connection.begin_nested():
+                connection.execute(insert(programs).values(row))
+        except IntegrityError:
+            raise Outdated("The program was made by somebody else meanwhile.") from None
+        return 1
+    values: dict[str, Any] = {
+        "revision": before.revision + 1,
+        "updated_at": now,
+        "deleted_at": now if deleted else None,
+    }
+    if before.is_deleted:
+        values["created_at"] = now
+    done = connection.execute(
+        update(programs)
+        .where(programs.c.id == program, programs.c.revision == before.revision)
+        .values(values)
+    )
+    if done.rowcount == 0:
+        raise Outdated("The program was changed by somebody else meanwhile.")
+    return before.revision + 1
+
+
+def _insert(connection: Connection, record: Record, document: bytes, layout: bytes) -> None:
+    connection.execute(
+        insert(revisions).values(
+            program=record.program,
+            number=record.number,
+            cause=record.cause,
+            name=record.name,
+            items=record.items,
+            hyperedges=record.hyperedges,
+            digest=record.digest,
+            document=zlib.compress(document, _LEVEL),
+            layout=zlib.compress(layout, _LEVEL),
+            changes=record.changes.to_json(),
+            undo_to=record.undo_to,
+            redo_to=record.redo_to,
+            created_at=record.created_at,
+        )
+    )
+
+
+def _newest(program: str, *columns: Any) -> Select[Any]:
+    return (
+        select(*columns)
+        .join(
+            programs,
+            (revisions.c.program == programs.c.id) & (revisions.c.number == programs.c.revision),
+        )
+        .where(programs.c.id == program, programs.c.deleted_at.is_(None))
+    )
+
+
+def _record(row: Row[Any]) -> Record:
+    return Record(
+        row.program,
+        row.number,
+        row.cause,
+        row.name,
+        row.items,
+        row.hyperedges,
+        row.digest,
+        Changes.from_json(row.changes),
+        row.undo_to,
+        row.redo_to,
+        row.created_at,
+    )
+
+
+def _now() -> int:
+    return time.time_ns() // 1_000_000
