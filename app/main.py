@@ -11,14 +11,17 @@ from starlette.exceptions import HTTPException
 from starlette.middleware.cors import CORSMiddleware
 
 from app import __version__
-from app.api import catalogue, docs, health, programs, schema
+from app.api import catalogue, docs, health, metrics, programs, schema
+from app.api.accounts import accountant
 from app.api.bodies import HeldBodies
 from app.api.cross_origin import EXPOSED_HEADERS, HEADERS, METHODS
 from app.api.defences import Defences
 from app.api.guard import Guard
 from app.api.journal import Journal
 from app.api.keyring import Keyring
+from app.api.metrics import Metrics
 from app.api.problems import KINDS, answer_problem
+from app.api.tracing import OFF, tracing_of
 from app.jobs.executor import WorkerPool
 from app.settings import Settings
 from app.settings import settings as settings_of_process
@@ -36,6 +39,7 @@ curl --data-binary @program.json 'http://127.0.0.1:8000/v1/render?format=png' -o
 def create_app(settings: Settings | None = None) -> FastAPI:
     """The application, with the ``settings`` given or those of the environment."""
     chosen = settings or settings_of_process()
+    tracing = tracing_of(chosen)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -44,10 +48,14 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.database, app.state.keyring = database, Keyring(database)
         try:
             async with WorkerPool(chosen) as pool:
-                app.state.pool = pool
+                pool.witness = accountant(app.state.metrics, tracing)
+                app.state.metrics.watch(pool, chosen.workers)
+                app.state.pool, app.state.examiner = pool, health.Examiner(pool, database)
                 yield
         finally:
             await asyncio.to_thread(database.close)
+            if tracing is not None:
+                await asyncio.to_thread(tracing.close)
 
     app = FastAPI(
         title="Tubeloom",
@@ -60,13 +68,13 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redoc_url=None,
         redirect_slashes=False,
         exception_handlers=dict.fromkeys([*KINDS, HTTPException], answer_problem),
-        telemetry={"tracing": False, "metrics": False, "logs": False},
+        telemetry=tracing.config if tracing else OFF,
     )
     app.state.settings = chosen
-    app.state.held_bodies = HeldBodies(chosen.max_held_bytes)
+    app.state.held_bodies, app.state.metrics = HeldBodies(chosen.max_held_bytes), Metrics()
     _protect(app, chosen)
     app.add_middleware(Journal)
-    for router in (programs.router, catalogue.router, health.router, docs.router):
+    for router in (programs.router, catalogue.router, health.router, metrics.router, docs.router):
         app.include_router(router)
     app.router.routes.append(docs.assets())
     app.openapi = lambda: schema.openapi(app)  # type: ignore[method-assign]  # FastAPI's own way

@@ -2,16 +2,37 @@
 
 from __future__ import annotations
 
+import asyncio
+import time
+from dataclasses import dataclass
 from typing import Literal
 
+import structlog
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
 from starlette.requests import Request
 from starlette.responses import JSONResponse
 
+from app.answers import RenderOptions
+from app.errors import Overloaded, RendererUnavailable, TubeloomError
 from app.jobs.executor import WorkerPool
+from app.output.media import SceneFormat
+from app.store.database import Database
+from app.store.health import check
+
+log = structlog.get_logger("tubeloom.health")
 
 router = APIRouter(tags=["health"])
+
+MEMORY_SECONDS = 5.0
+"""So long is believed what was found, so that asking costs next to nothing."""
+
+PATIENCE_SECONDS = 5.0
+"""What takes longer does not work, as far as whoever asks can tell."""
+
+PIXEL = RenderOptions(SceneFormat.PNG, width=1, height=1)
+SCENE = b'{"items": [{"id": "a"}, {"id": "b"}], "hyperedges": [{"id": "e", "attachments": \
+[{"item": "a"}, {"item": "b"}]}]}'
 
 
 class Health(BaseModel):
@@ -25,6 +46,9 @@ class Workers(BaseModel):
 
     wanted: int
     warm: int = Field(description="Alive, and past their first call.")
+    problem: str | None = Field(
+        None, description="Why one did not draw a pixel, when it was last asked to."
+    )
 
 
 class Draft(BaseModel):
@@ -34,12 +58,88 @@ class Draft(BaseModel):
     problem: str | None = Field(description="What is missing, and how to install it.")
 
 
+class Store(BaseModel):
+    """Whether what is stored can be read."""
+
+    available: bool
+    problem: str | None = None
+
+
 class Readiness(BaseModel):
     """Whether work would be done at once. Degraded: all but draft pictures."""
 
-    status: Literal["ready", "degraded", "starting"]
+    status: Literal["ready", "degraded", "starting", "broken"]
     workers: Workers
     draft: Draft
+    database: Store
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What does not work, if it does not."""
+
+    workers: str | None
+    database: str | None
+
+
+class Examiner:
+    """Tries out what a service is made of, now and then, and only when somebody asks."""
+
+    def __init__(self, pool: WorkerPool, database: Database) -> None:
+        self._pool, self._database = pool, database
+        self._until = 0.0
+        self._found = Findings(None, None)
+        self._lock = asyncio.Lock()
+        self._drawing: asyncio.Task[str | None] | None = None
+
+    async def examine(self) -> Findings:
+        """What was found in the last seconds, or is found now."""
+        async with self._lock:
+            if time.monotonic() >= self._until:
+                workers, database = await asyncio.gather(self._draw(), self._read())
+                if workers or database:
+                    log.warning("not ready", workers=workers, database=database)
+                self._found = Findings(workers, database)
+                self._until = time.monotonic() + MEMORY_SECONDS
+        return self._found
+
+    async def _draw(self) -> str | None:
+        """Let a worker draw; where all are at work, they prove by it that they can."""
+        if self._drawing is None:
+            if not self._pool.warm or self._pool.busy >= self._pool.warm:
+                return None
+            # Not stopped here, but at the deadline: the first picture may compile kernels.
+            self._drawing = asyncio.create_task(self._pixel())
+        await asyncio.wait({self._drawing}, timeout=PATIENCE_SECONDS)
+        if not self._drawing.done():
+            return f"A worker has not drawn a pixel within {PATIENCE_SECONDS:g} seconds."
+        problem, self._drawing = self._drawing.result(), None
+        return problem
+
+    async def _pixel(self) -> str | None:
+        try:
+            await self._pool.answer(SCENE, PIXEL)
+        except (Overloaded, RendererUnavailable):
+            return None
+        except TubeloomError as error:
+            return str(error)
+        except Exception:
+            log.exception("unexpected error")
+            return "A worker failed at drawing a pixel; the log says how."
+        return None
+
+    async def _read(self) -> str | None:
+        try:
+            async with asyncio.timeout(PATIENCE_SECONDS):
+                await self._database.read(check)
+        except TimeoutError:
+            return f"It did not answer within {PATIENCE_SECONDS:g} seconds."
+        except TubeloomError as error:
+            return str(error)
+        except Exception:
+            log.exception("unexpected error")
+            return "It cannot be read; the log says why."
+        return None
 
 
 @router.get("/healthz")
@@ -51,14 +151,30 @@ async def healthz() -> Health:
 @router.get(
     "/readyz",
     response_model=Readiness,
-    responses={503: {"model": Readiness, "description": "No worker is warm yet."}},
+    responses={503: {"model": Readiness, "description": "No worker is warm, or one failed."}},
 )
 async def readyz(request: Request) -> JSONResponse:
-    """Whether the service can work, and whether it can draw."""
+    """Whether the service can work, and whether it can draw: a worker is made to, now and then."""
     pool: WorkerPool = request.app.state.pool
+    examiner: Examiner = request.app.state.examiner
+    found = await examiner.examine()
     readiness = Readiness(
-        status="starting" if not pool.warm else "degraded" if pool.draft_problem else "ready",
-        workers=Workers(wanted=request.app.state.settings.workers, warm=pool.warm),
+        status=_status(pool, found),
+        workers=Workers(
+            wanted=request.app.state.settings.workers, warm=pool.warm, problem=found.workers
+        ),
         draft=Draft(available=pool.draft_problem is None, problem=pool.draft_problem),
+        database=Store(available=found.database is None, problem=found.database),
     )
-    return JSONResponse(readiness.model_dump(), status_code=200 if pool.warm else 503)
+    is_ready = readiness.status in {"ready", "degraded"}
+    return JSONResponse(readiness.model_dump(), status_code=200 if is_ready else 503)
+
+
+def _status(
+    pool: WorkerPool, found: Findings
+) -> Literal["ready", "degraded", "starting", "broken"]:
+    if found.workers or found.database:
+        return "broken"
+    if not pool.warm:
+        return "starting"
+    return "degraded" if pool.draft_problem else "ready"

@@ -10,6 +10,7 @@ import uuid
 from typing import Literal
 
 import structlog
+from starlette._utils import get_route_path
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import ClientDisconnect, Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -74,12 +75,12 @@ class Journal:
         request_id = _request_id(scope)
         scope.setdefault("state", {})["request_id"] = request_id
         started = time.perf_counter()
-        status, sent_bytes = CLIENT_GONE, 0
+        status, sent_bytes, answered = CLIENT_GONE, 0, 0.0
 
         async def note(message: Message) -> None:
-            nonlocal status, sent_bytes
+            nonlocal status, sent_bytes, answered
             if message["type"] == "http.response.start":
-                status = message["status"]
+                status, answered = message["status"], time.perf_counter()
                 MutableHeaders(scope=message)[HEADER] = request_id
             else:
                 sent_bytes += len(message.get("body", b""))
@@ -97,12 +98,16 @@ class Journal:
             finally:
                 if held := scope["state"].get("held_bytes"):
                     scope["app"].state.held_bodies.release(held)
+                ended = time.perf_counter()
+                scope["app"].state.metrics.note_request(
+                    scope["method"], get_route_path(scope), status, (answered or ended) - started
+                )
                 log.info(
                     "request",
                     method=scope["method"],
                     path=scope["path"],
                     status=status,
-                    ms=round((time.perf_counter() - started) * 1000, 1),
+                    ms=round((ended - started) * 1000, 1),
                     bytes=sent_bytes,
                 )
 
