@@ -10,7 +10,9 @@ from starlette.requests import Request
 
 from app.api.negotiation import media_type_of
 from app.api.problems import BodyTooLargeError, SlowUploadError, UnsupportedMediaTypeError
+from app.api.queries import PostedQuery
 from app.errors import Overloaded
+from app.formats.registry import FORMATS
 from app.settings import Settings
 
 FORM = "application/x-www-form-urlencoded"
@@ -71,6 +73,16 @@ async def _read(request: Request, limit: int) -> bytes:
 def declared_media_type(headers: Mapping[str, str]) -> str:
     """What the client says that it sends, without parameters; JSON where it says nothing."""
     return media_type_of(headers.get("content-type") or "application/json")
+
+
+def source_of(request: Request, query: PostedQuery) -> str:
+    """The format of the posted document: as asked, or as its media type tells."""
+    if query.source is not None:
+        return query.source
+    media_type = declared_media_type(request.headers)
+    return next(
+        (name for name, found in FORMATS.items() if found.media_type == media_type), "tubeloom"
+    )
 
 
 def _check_is_json(headers: Mapping[str, str]) -> None:

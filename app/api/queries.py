@@ -38,9 +38,13 @@ Pixels = Annotated[int, Field(ge=1, le=8192)]
 
 
 class Query(BaseModel):
-    """What may stand after the question mark of any call that takes a document."""
+    """What may stand after the question mark."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class PostedQuery(Query):
+    """What may be asked of any call that takes a document."""
 
     source: Readable | None = Field(
         None,
@@ -49,7 +53,7 @@ class Query(BaseModel):
     )
 
 
-class RenderQuery(Query):
+class SceneQuery(Query):
     """What may be asked of a scene."""
 
     format: SceneFormat | None = Field(
@@ -117,7 +121,11 @@ class RenderQuery(Query):
     )
 
 
-class LayoutQuery(Query):
+class RenderQuery(SceneQuery, PostedQuery):
+    """What may be asked of the scene of a posted document."""
+
+
+class NumbersQuery(Query):
     """What may be asked of a layout."""
 
     patches: Flag = Field(
@@ -125,7 +133,50 @@ class LayoutQuery(Query):
     )
 
 
-class ConvertQuery(Query):
+class LayoutQuery(NumbersQuery, PostedQuery):
+    """What may be asked of the layout of a posted document."""
+
+
+class ConvertQuery(PostedQuery):
     """What may be asked of a conversion."""
 
     target: Writable = Field("tubeloom", alias="to", description="Format of the answer.")
+
+
+Revision = Annotated[
+    int | None,
+    Field(ge=1, lt=2**31, description="An older revision, if it is kept; left out, the newest."),
+]
+
+
+class StoredSceneQuery(SceneQuery):
+    """What may be asked of the scene of a stored program."""
+
+    revision: Revision = None
+    since: int | None = Field(
+        None,
+        ge=1,
+        lt=2**31,
+        description="As glTF: only the nodes that changed after this revision, and in the scene's "
+        "extras (`delta`) the ids of what was removed. Where all must be shown anew, or that "
+        "revision is not kept, the whole scene comes, and the header `Tubeloom-Since` is missing.",
+    )
+
+
+class StoredNumbersQuery(NumbersQuery):
+    """What may be asked of the layout of a stored program."""
+
+    revision: Revision = None
+
+
+class StoredConvertQuery(Query):
+    """What may be asked of a conversion of a stored program."""
+
+    target: Writable = Field("tubeloom", alias="to", description="Format of the answer.")
+    revision: Revision = None
+
+
+class RevisionQuery(Query):
+    """Which revision is meant."""
+
+    revision: Revision = None
