@@ -41,6 +41,17 @@ class Settings(BaseSettings):
         None,
         description="postgresql://… or sqlite:///…; left out, SQLite in the data folder.",
     )
+    results: str | None = Field(
+        None,
+        description="Where results are kept: s3://…, gs://…, az://…, a folder or file://…, or "
+        "memory://; left out, in the data folder.",
+    )
+    results_bytes: int = Field(
+        1024**3, ge=0, description="Of all results that are kept; the least used go first."
+    )
+    memory_bytes: int = Field(
+        64 * 1024**2, ge=0, description="Of results that are kept at hand in memory besides."
+    )
 
     auth: Literal["auto", "required", "off"] = Field(
         "auto", description="Whether keys are needed; auto: unless only this machine is served."
@@ -119,6 +130,11 @@ class Settings(BaseSettings):
     def database_url(self) -> str:
         """Of the database, with its default."""
         return self.database or f"sqlite:///{self.data_folder.resolve() / 'tubeloom.db'}"
+
+    @property
+    def results_place(self) -> str:
+        """Folder or URL of results, with its default."""
+        return self.results or str(self.data_folder.resolve() / "results")
 
 
 @lru_cache(maxsize=1)
