@@ -58,8 +58,11 @@ main.add_command(keys)
 @click.option("--workers", type=click.IntRange(1, 256), help="Processes that do the work.")
 def serve(host: str | None, port: int | None, workers: int | None) -> None:
     """Serve over HTTP. What is left out comes from TUBELOOM_… in the environment."""
+    import socket
+
     import uvicorn
 
+    from app.api.connections import Connection
     from app.api.journal import configure_logging
     from app.main import create_app
 
@@ -69,16 +72,27 @@ def serve(host: str | None, port: int | None, workers: int | None) -> None:
         | {name: value for name, value in given.items() if value is not None}
     )
     configure_logging(settings.log_format)
-    uvicorn.run(
-        create_app(settings),
+    app = create_app(settings)
+
+    class Server(uvicorn.Server):
+        async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+            for stop in app.state.before_shutdown:
+                stop()
+            await super().shutdown(sockets)
+
+    config = uvicorn.Config(
+        app,
         host=settings.host,
         port=settings.port,
         log_config=None,
         access_log=False,
         server_header=False,
+        http=Connection,
+        ws="none",
         proxy_headers=bool(settings.trusted_proxies),
         forwarded_allow_ips=list(settings.trusted_proxies),
     )
+    Server(config).run()
 
 
 @main.command()

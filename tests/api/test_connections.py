@@ -1,0 +1,108 @@
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+
+import httpx
+import pytest
+
+from app.api.connections import HEAD_BYTES, HEAD_SECONDS
+from tests.api.raw import connect, exchange, host_of, received, status_of
+from tests.service import Service, running_service
+
+
+@pytest.fixture(scope="module")
+def impatient(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    folder = tmp_path_factory.mktemp("impatient")
+    with running_service(folder, workers=1, upload_seconds=1.5, max_held_bytes=1_000_000) as found:
+        yield found
+
+
+def head(service: Service, size: int) -> bytes:
+    return (
+        f"POST /v1/layout HTTP/1.1\r\nHost: {host_of(service)}\r\nContent-Length: {size}\r\n\r\n"
+    ).encode()
+
+
+def trickle(service: Service, beginning: bytes, part: bytes) -> tuple[float, bytes]:
+    """Send a part again and again until the service has had enough."""
+    began = time.monotonic()
+    with connect(service) as connection:
+        connection.sendall(beginning)
+        connection.settimeout(0.3)
+        answer = b""
+        while time.monotonic() < began + 40:
+            try:
+                connection.sendall(part)
+                came = connection.recv(65536)
+            except TimeoutError:
+                continue
+            except OSError:
+                break
+            if not came:
+                break
+            answer += came
+        return time.monotonic() - began, answer
+
+
+def test_a_body_that_comes_too_slowly_is_refused_and_its_connection_closed(
+    impatient: Service,
+) -> None:
+    seconds, answer = trickle(impatient, head(impatient, 1000), b" ")
+    assert status_of(answer) == 408
+    assert b"urn:tubeloom:problem:slow-upload" in answer
+    assert seconds < 1.5 + HEAD_SECONDS + 3
+
+
+def test_a_head_that_comes_too_slowly_ends_the_connection(impatient: Service) -> None:
+    with ThreadPoolExecutor(2) as threads:
+        first = threads.submit(trickle, impatient, b"GET /healthz HTTP/1.1\r\n", b"x")
+        silent = threads.submit(trickle, impatient, b"", b"")
+        for seconds, answer in (first.result(), silent.result()):
+            assert answer == b""
+            assert HEAD_SECONDS - 1 < seconds < HEAD_SECONDS + 5
+
+
+def test_a_connection_is_not_held_by_a_body_that_nobody_reads(impatient: Service) -> None:
+    beginning = head(impatient, 10**9).replace(b"/v1/layout", b"/nowhere")
+    seconds, answer = trickle(impatient, beginning, b" ")
+    assert status_of(answer) == 404
+    assert seconds < HEAD_SECONDS + 5
+
+
+def test_a_head_too_large_is_refused(impatient: Service) -> None:
+    beginning = f"GET /healthz HTTP/1.1\r\nHost: {host_of(impatient)}\r\n".encode()
+    assert status_of(exchange(impatient, beginning + b"A: b\r\n" * 100 + b"\r\n")) == 200
+    many = b"".join(b"X-%d: %s\r\n" % (number, b"y" * 100) for number in range(10_000))
+    assert len(many) > HEAD_BYTES
+    with connect(impatient) as connection:
+        connection.settimeout(5)
+        with suppress(OSError):
+            connection.sendall(beginning + many + b"\r\n")
+        assert received(connection)[:12] in {b"HTTP/1.1 431", b""}
+    assert httpx.get(f"{impatient.url}/healthz").status_code == 200
+
+
+def test_a_connection_goes_on_for_who_behaves(impatient: Service) -> None:
+    with impatient.client() as client:
+        for pause in (0.0, 1.0, 3.0):
+            time.sleep(pause)
+            assert client.get("/healthz").status_code == 200
+            body = (b" " for _ in range(5))
+            assert client.post("/v1/layout", content=body).status_code == 400
+
+
+def test_more_bodies_than_may_be_held_wait_outside(impatient: Service) -> None:
+    with connect(impatient) as first, impatient.client() as client:
+        first.sendall(head(impatient, 950_000) + b" " * 900_000)
+        time.sleep(0.3)
+        refused = client.post("/v1/layout", content=b" " * 200_000)
+        assert refused.status_code == 503
+        assert refused.json()["type"] == "urn:tubeloom:problem:overloaded"
+        assert refused.headers["retry-after"] == "2"
+        assert client.post("/v1/layout", content=b" " * 50_000).status_code == 400
+        assert status_of(received(first)) == 408
+        # What was held has been given back.
+        assert client.post("/v1/layout", content=b" " * 900_000).status_code == 400
+    for _ in range(3):
+        assert httpx.post(f"{impatient.url}/v1/layout", content=b" " * 900_000).status_code == 400
