@@ -1,0 +1,98 @@
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.api.keys import bearer, make_key
+from tests.service import SMALL, Service, large_program, running_service
+
+
+@pytest.fixture(scope="module")
+def rated(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Service, Path]]:
+    folder = tmp_path_factory.mktemp("rated")
+    with running_service(
+        folder, workers=1, auth="required", rate_per_key="5/minute;100/hour", budget_seconds=0.5
+    ) as service:
+        yield service, folder / "data"
+
+
+def test_too_many_requests_are_refused_and_told_when_to_come_again(
+    rated: tuple[Service, Path],
+) -> None:
+    service, data = rated
+    first, second = make_key(data, "render", "metrics"), make_key(data, "metrics")
+    with service.client() as client:
+        left = []
+        for _ in range(5):
+            answer = client.get("/metrics", headers=bearer(first))
+            assert answer.status_code == 200
+            assert '"requests-60s";q=5;w=60' in answer.headers["ratelimit-policy"]
+            assert '"requests-3600s";q=100;w=3600' in answer.headers["ratelimit-policy"]
+            found = re.match(r'"requests-60s";r=(\d);t=(\d+)', answer.headers["ratelimit"])
+            assert found
+            left.append(int(found[1]))
+            assert 0 < int(found[2]) <= 60
+        assert left == [4, 3, 2, 1, 0]
+        refused = client.get("/metrics", headers=bearer(first))
+        assert refused.status_code == 429
+        assert refused.json()["type"] == "urn:tubeloom:problem:too-many-requests"
+        assert 1 <= int(refused.headers["retry-after"]) <= 120
+        assert '"requests-60s";r=0' in refused.headers["ratelimit"]
+        assert client.get("/metrics", headers=bearer(second)).status_code == 200
+        assert client.get("/healthz").status_code == 200
+
+
+def test_a_budget_of_work_is_kept(rated: tuple[Service, Path]) -> None:
+    service, data = rated
+    spender, other = make_key(data, "render"), make_key(data, "render")
+    with service.client() as client:
+        costly = client.post("/v1/render", content=large_program(2000), headers=bearer(spender))
+        assert costly.status_code == 200
+        refused = client.post("/v1/render", json=SMALL, headers=bearer(spender))
+        assert refused.status_code == 429
+        assert "0.5 seconds of work" in refused.json()["detail"]
+        assert '"work-ms";q=500;w=60' in refused.headers["ratelimit-policy"]
+        assert int(refused.headers["retry-after"]) >= 1
+        assert client.post("/v1/render", json=SMALL, headers=bearer(other)).status_code == 200
+
+
+def test_guessing_keys_is_slowed_down_but_known_keys_work(rated: tuple[Service, Path]) -> None:
+    service, data = rated
+    known = make_key(data, "metrics")
+    with service.client() as client:
+        assert client.get("/metrics", headers=bearer(known)).status_code == 200
+        statuses = [
+            client.get("/metrics", headers=bearer(f"tl_{number:043}")).status_code
+            for number in range(80)
+        ]
+        assert statuses[:30] == [401] * 30
+        assert statuses[-1] == 429
+        refused = client.get("/metrics", headers=bearer("tl_another"))
+        assert int(refused.headers["retry-after"]) >= 1
+        assert client.get("/metrics", headers=bearer(known)).status_code == 200
+
+
+def test_without_keys_addresses_are_counted(tmp_path: Path) -> None:
+    with (
+        running_service(tmp_path, workers=1, rate_per_address="3/minute") as service,
+        service.client() as client,
+    ):
+        statuses = [client.post("/v1/layout", json=SMALL).status_code for _ in range(5)]
+        assert statuses == [200, 200, 200, 429, 429]
+        # Nobody asked to be believed about where requests come from.
+        strange = client.post("/v1/layout", json=SMALL, headers={"X-Forwarded-For": "203.0.113.7"})
+        assert strange.status_code == 429
+        assert client.get("/v1/palettes").status_code == 200
+    trusting = tmp_path / "trusting"
+    trusting.mkdir()
+    with (
+        running_service(
+            trusting, workers=1, rate_per_address="1/minute", trusted_proxies="127.0.0.1"
+        ) as service,
+        service.client() as client,
+    ):
+        for number, status in ((1, 200), (1, 429), (2, 200)):
+            headers = {"X-Forwarded-For": f"203.0.113.{number}"}
+            answer = client.post("/v1/layout", json=SMALL, headers=headers)
+            assert answer.status_code == status
