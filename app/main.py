@@ -22,10 +22,12 @@ from app.api.keyring import Keyring
 from app.api.metrics import Metrics
 from app.api.problems import KINDS, answer_problem
 from app.api.tracing import OFF, tracing_of
+from app.jobs.answering import Answering
 from app.jobs.executor import WorkerPool
 from app.settings import Settings
 from app.settings import settings as settings_of_process
 from app.store.database import Database
+from app.store.results import Results
 
 DESCRIPTION = """
 Lays out the hyperedges of a posted program as smooth tubes in three dimensions.
@@ -47,7 +49,12 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         await asyncio.to_thread(database.migrate)
         app.state.database, app.state.keyring = database, Keyring(database)
         try:
-            async with WorkerPool(chosen) as pool:
+            async with (
+                WorkerPool(chosen) as pool,
+                Results(chosen.results_place, database, chosen.results_bytes) as results,
+                Answering(pool, results, chosen) as answering,
+            ):
+                app.state.results, app.state.answering = results, answering
                 pool.witness = accountant(app.state.metrics, tracing)
                 app.state.metrics.watch(pool, chosen.workers)
                 app.state.pool, app.state.examiner = pool, health.Examiner(pool, database)

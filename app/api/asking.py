@@ -1,4 +1,4 @@
-"""Asking the workers for somebody who may leave before they answer."""
+"""Asking for answers for somebody who may leave before they answer."""
 
 from __future__ import annotations
 
@@ -8,20 +8,23 @@ from starlette.requests import ClientDisconnect, Request
 
 from app.answers import Options
 from app.api.conditions import known_tags
-from app.jobs.executor import Finished, WorkerPool
+from app.jobs.answering import Answering
+from app.jobs.executor import Finished
 
 
 async def ask(
     request: Request, document: bytes, options: Options, layout: bytes | None = None
 ) -> Finished:
-    """The workers' answer to a request whose body has been read.
+    """The answer to a request whose body has been read.
 
     Raises what the workers raise, and `ClientDisconnect`, which stops them, when nobody waits for
     the answer any more.
     """
-    pool: WorkerPool = request.app.state.pool
+    answering: Answering = request.app.state.answering
     known = known_tags(request.headers.get("if-none-match"))
-    work = asyncio.create_task(pool.answer(document, options, known, layout=layout))
+    if (finished := answering.at_hand(document, options, known, layout)) is not None:
+        return finished
+    work = asyncio.create_task(answering.answer(document, options, known, layout=layout))
     # The body has been read, so the only message that can still come is the disconnection.
     gone = asyncio.ensure_future(request.receive())
     try:

@@ -21,7 +21,7 @@ from app.answers import Answer, Options
 from app.api.problems import problem_of
 from app.api.responses import headers_of
 from app.errors import TubeloomError
-from app.jobs.executor import WorkerPool
+from app.jobs.answering import Answering
 from app.jobs.work import Report
 
 log = structlog.get_logger("tubeloom.http")
@@ -33,21 +33,21 @@ SILENCE_SECONDS = 10.0
 
 
 def event_response(
-    request: Request, pool: WorkerPool, document: bytes, options: Options, ending: str
+    request: Request, answering: Answering, document: bytes, options: Options, ending: str
 ) -> StreamingResponse:
-    """The answer that ``pool`` will have, as events; who leaves stops the work."""
-    events = _events(request, pool, document, options, ending)
+    """The answer that ``answering`` will have, as events; who leaves stops the work."""
+    events = _events(request, answering, document, options, ending)
     return StreamingResponse(
         events, media_type=MEDIA_TYPE, headers={"Cache-Control": "no-store", "Vary": "Accept"}
     )
 
 
 async def _events(
-    request: Request, pool: WorkerPool, document: bytes, options: Options, ending: str
+    request: Request, answering: Answering, document: bytes, options: Options, ending: str
 ) -> AsyncIterator[bytes]:
     heard: asyncio.Queue[tuple[Report, bytes] | None] = asyncio.Queue()
     work = asyncio.create_task(
-        pool.answer(
+        answering.answer(
             document, options, listener=lambda report, preview: heard.put_nowait((report, preview))
         )
     )

@@ -20,7 +20,7 @@ from app.api.responses import response_of
 from app.api.scene_queries import render_options, scene_format
 from app.api.schema import describe
 from app.formats.registry import FORMATS
-from app.jobs.executor import WorkerPool
+from app.jobs.answering import Answering
 from app.settings import Settings
 
 router = APIRouter(prefix="/v1", tags=["programs"], default_response_class=Response)
@@ -41,8 +41,8 @@ async def render(request: Request, query: Annotated[RenderQuery, QueryParameters
     options = render_options(query, wanted, source_of(request, query))
     if names(events.MEDIA_TYPE, accept):
         document = await read_document(request, request.app.state.settings.max_body_bytes)
-        pool: WorkerPool = request.app.state.pool
-        return events.event_response(request, pool, document, options, options.format.value)
+        answering: Answering = request.app.state.answering
+        return events.event_response(request, answering, document, options, options.format.value)
     return await _answer(request, options, options.format.value)
 
 

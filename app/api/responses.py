@@ -54,6 +54,8 @@ def headers_of(finished: Finished, ending: str) -> dict[str, str]:
     """What is said of an answer beside its media type. ``ending`` is of the file."""
     answer = finished.answer
     headers = {**COMMON_HEADERS, "Server-Timing": server_timing(finished)}
+    if finished.cache is not None:
+        headers[f"{NOTES}-Cache"] = finished.cache
     if answer.etag is not None:
         headers["ETag"] = entity_tag(answer.etag)
     if isinstance(answer, Answer):

@@ -10,7 +10,7 @@ import asyncio
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Self
+from typing import Literal, Self
 
 import structlog
 
@@ -46,13 +46,15 @@ class UnexpectedError(Exception):
 class Finished:
     """An answer, the seconds it waited for a worker, and how long its stages took.
 
-    The answer's body stands apart, in the pieces in which it came.
+    The answer's body stands apart, in the pieces in which it came. ``cache`` tells whether it was
+    there already, or had to be worked out: for this asker, or also for others.
     """
 
     answer: Answer | Unchanged
     pieces: tuple[bytes, ...]
     waited: float
     stages: tuple[Stage, ...]
+    cache: Literal["hit", "miss", "shared"] | None = None
 
 
 class WorkerPool:

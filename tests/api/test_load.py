@@ -21,6 +21,11 @@ from tests.service import (
 LARGE = large_program(1500)
 
 
+def another(document: bytes, number: int = 1) -> bytes:
+    """The same document, but other bytes: what was answered of it before is of no use."""
+    return document + number * b" "
+
+
 def test_a_heavy_render_keeps_nobody_else_waiting(service: Service, client: httpx.Client) -> None:
     with ThreadPoolExecutor(1) as background, service.client() as other:
         heavy = background.submit(other.post, "/v1/render", content=LARGE)
@@ -42,7 +47,7 @@ def test_a_worker_killed_at_work_costs_its_request_a_retry_and_others_nothing(
     before = {worker.pid for worker in service.workers()}
     spent = service.spent()
     with ThreadPoolExecutor(1) as background, service.client() as other:
-        heavy = background.submit(other.post, "/v1/render", content=LARGE)
+        heavy = background.submit(other.post, "/v1/render", content=another(LARGE))
         victim = until(lambda: service.busy_worker(spent))
         victim.kill()
         assert client.post("/v1/render", json=SMALL).status_code == 200
@@ -82,9 +87,10 @@ def test_work_that_takes_too_long_is_stopped(hurried: Service) -> None:
 
 
 def test_a_full_line_turns_requests_away(hurried: Service) -> None:
+    bodies = [another(LARGE, number) for number in range(6)]
     with hurried.client() as client, ThreadPoolExecutor(6) as crowd:
-        until(lambda: client.post("/v1/render", json=SMALL).status_code == 200)
-        answers = list(crowd.map(lambda _: client.post("/v1/render", content=LARGE), range(6)))
+        until(lambda: client.get("/readyz").json()["workers"]["warm"] == 1)
+        answers = list(crowd.map(lambda body: client.post("/v1/render", content=body), bodies))
     turned_away = [answer for answer in answers if answer.status_code == 503]
     assert turned_away
     assert turned_away[0].json()["type"] == "urn:tubeloom:problem:overloaded"

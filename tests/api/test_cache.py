@@ -1,0 +1,91 @@
+"""Answers that are there already, over HTTP."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import httpx
+import pytest
+
+from tests.api.event_streams import events
+from tests.service import SMALL, Service, large_program, running_service, until
+
+
+def named(name: str) -> bytes:
+    """A small program of that name."""
+    return json.dumps({**SMALL, "name": name}).encode()
+
+
+@pytest.mark.parametrize("path", ["render", "render?format=png", "layout", "convert?to=hif"])
+def test_an_answer_is_there_when_it_is_asked_for_again(
+    client: httpx.Client, service: Service, path: str
+) -> None:
+    document = named(f"again {path}")
+    first = client.post(f"/v1/{path}", content=document)
+    spent = service.spent()
+    second = client.post(f"/v1/{path}", content=document)
+    assert (first.status_code, second.status_code) == (200, 200)
+    assert first.headers["tubeloom-cache"] == "miss"
+    assert second.headers["tubeloom-cache"] == "hit"
+    assert second.content == first.content
+    same = ("etag", "content-type", "content-disposition", "content-length")
+    assert [second.headers[name] for name in same] == [first.headers[name] for name in same]
+    tag = {"if-none-match": first.headers["etag"]}
+    unchanged = client.post(f"/v1/{path}", content=document, headers=tag)
+    assert (unchanged.status_code, unchanged.content) == (304, b"")
+    assert unchanged.headers["etag"] == first.headers["etag"]
+    assert unchanged.headers["tubeloom-cache"] == "hit"
+    assert service.spent() == spent
+
+
+def test_the_same_question_at_the_same_time_is_worked_on_once(service: Service) -> None:
+    document = large_program(702)
+
+    def ask(_number: int) -> httpx.Response:
+        with service.client() as client:
+            return client.post("/v1/render", content=document)
+
+    with ThreadPoolExecutor(4) as crowd:
+        answers = list(crowd.map(ask, range(4)))
+    assert {answer.status_code for answer in answers} == {200}
+    assert len({answer.content for answer in answers}) == 1
+    assert [answer.headers["tubeloom-cache"] for answer in answers].count("miss") == 1
+
+
+def test_who_leaves_does_not_end_what_another_waits_for(service: Service) -> None:
+    document = large_program(1203)
+    with ThreadPoolExecutor(1) as background, service.client() as other, service.client() as third:
+        stays = background.submit(other.post, "/v1/render", content=document)
+        with pytest.raises(httpx.ReadTimeout):
+            third.post("/v1/render", content=document, timeout=0.2)
+        assert stays.result().status_code == 200
+    with service.client() as client:
+        again = client.post("/v1/render", content=document)
+    assert again.headers["tubeloom-cache"] == "hit"
+
+
+def test_an_answer_that_is_there_comes_as_the_only_event(client: httpx.Client) -> None:
+    document = named("as events")
+    whole = client.post("/v1/render", content=document)
+    accept = {"accept": "text/event-stream, model/gltf-binary"}
+    (event,) = events(client.post("/v1/render", content=document, headers=accept))
+    assert event.name == "answer"
+    assert event.data["headers"]["ETag"] == whole.headers["etag"]
+    assert event.data["headers"]["Tubeloom-Cache"] == "hit"
+
+
+def test_answers_outlive_a_service_that_is_killed(tmp_path: Path) -> None:
+    document = named("kept")
+    with running_service(tmp_path, workers=1) as service, service.client() as client:
+        first = client.post("/v1/render", content=document)
+        database = sqlite3.connect(tmp_path / "data" / "tubeloom.db")
+        until(lambda: database.execute("SELECT key FROM results").fetchall())
+        database.close()
+        service.process.kill()
+    with running_service(tmp_path, workers=1) as service, service.client() as client:
+        again = client.post("/v1/render", content=document)
+    assert again.headers["tubeloom-cache"] == "hit"
+    assert again.content == first.content
