@@ -27,15 +27,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
+
+LONGEST_KEY = 300
+"""Of those that pointers lead to; whoever sends a key of megabytes does not get it back."""
 
 
 def pointer(*parts: str | int) -> str:
-    """JSON pointer (RFC 6901) to the place that ``parts`` lead to.
+    """JSON pointer (RFC 6901) to the place that ``parts`` lead to, or to what holds a huge key.
 
-    >>> pointer("items", 3, "a/b")
-    '/items/3/a~1b'
+    >>> pointer("items", 3, "a/b"), pointer("items", 3, "a" * 1_000)
+    ('/items/3/a~1b', '/items/3')
     """
-    return "".join("/" + str(part).replace("~", "~0").replace("/", "~1") for part in parts)
+    way = takewhile(lambda part: len(part) <= LONGEST_KEY, map(str, parts))
+    return "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in way)
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,6 +22,7 @@ from app.placement.place import place
 from app.placement.placement import Placement
 from app.placement.standing import Standing
 from app.program.model import Program
+from app.scene.palette import palette as find_palette
 
 Progress = Callable[[str, float], None]
 """Told what is being done and which share of the whole is done, from 0 to 1.
@@ -66,6 +67,7 @@ def lay_out(
     they would without any others.
     """
     progress("placing items", 0.1)
+    find_palette(program.style.palette)  # now, and not when all has been laid out
     standing = None if previous is None else previous.standing
     placement = place(program, load_notation(program.notation), standing)
     progress("laying out hyperedges", 0.2)

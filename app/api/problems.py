@@ -19,6 +19,7 @@ from starlette.responses import Response
 
 from app.api.problem_pictures import problem_picture
 from app.errors import (
+    LONGEST_KEY,
     DeadlineExceeded,
     DocumentError,
     DocumentTooLarge,
@@ -35,6 +36,7 @@ from app.errors import (
     UnreadableDocument,
     WorkerLost,
 )
+from app.program.faults import MOST_FAULTS
 
 MEDIA_TYPE = "application/problem+json"
 
@@ -209,8 +211,11 @@ def _errors(error: Exception) -> Sequence[Mapping[str, str]]:
             return [{"pointer": fault.pointer, "detail": fault.detail} for fault in error.faults]
         case RequestValidationError():
             return [
-                {"parameter": str(fault["loc"][-1]), "detail": _parameter_detail(fault)}
-                for fault in error.errors()
+                {
+                    "parameter": str(fault["loc"][-1])[:LONGEST_KEY],
+                    "detail": _parameter_detail(fault),
+                }
+                for fault in error.errors()[:MOST_FAULTS]
             ]
         case _:
             return []

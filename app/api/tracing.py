@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from app import __version__
-from app.errors import TubeloomError
 from app.jobs.work import Stage
 from app.settings import Settings
 
@@ -25,12 +24,12 @@ UNTRACED = frozenset({"/healthz", "/readyz", "/metrics"})
 """Paths that machines ask for all the time, about which nobody wants to read."""
 
 
-class TelemetryMissing(TubeloomError):
+class TelemetryMissingError(ImportError):
     """Traces are asked for, and the packages that send them are not installed."""
 
 
 class Tracing:
-    """Sends spans to the collector at ``url``. Raises `TelemetryMissing`."""
+    """Sends spans to the collector at ``url``. Raises `TelemetryMissingError`."""
 
     def __init__(self, url: str) -> None:
         self._provider = _provider(url)
@@ -71,7 +70,7 @@ class Tracing:
 
 
 def tracing_of(settings: Settings) -> Tracing | None:
-    """What the settings ask for. Raises `TelemetryMissing`."""
+    """What the settings ask for. Raises `TelemetryMissingError`."""
     return None if settings.traces is None else Tracing(settings.traces)
 
 
@@ -82,7 +81,7 @@ def _provider(url: str) -> TracerProvider:
         from opentelemetry.sdk.trace import TracerProvider
         from opentelemetry.sdk.trace.export import BatchSpanProcessor
     except ImportError as error:
-        raise TelemetryMissing(
+        raise TelemetryMissingError(
             "TUBELOOM_TRACES needs packages that are not here: pip install 'tubeloom[telemetry]'."
         ) from error
     resource = Resource.create({"service.name": "tubeloom", "service.version": __version__})
