@@ -34,6 +34,18 @@ class Delta:
 
 
 @dataclass(frozen=True, slots=True)
+class Stretch:
+    """Frames of a film from ``first`` up to ``end``, for which there is this ``share`` of its time.
+
+    They are answered as `app.output.frames` packs them.
+    """
+
+    first: int
+    end: int
+    share: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
 class RenderOptions:
     """What belongs to one picture alone: its format, and its size in pixels.
 
@@ -44,7 +56,8 @@ class RenderOptions:
     Pictures are drawn in ``quality``, a final one with ``effort``. What moves has ``frames`` in
     ``seconds``, and a glTF scene moves if there is a ``motion``. A ``sheet`` shows the scene from
     several sides; a ``sweep``, over one or two axes such as ``/style/halo=0,0.3``, shows variations
-    of the document beside each other. With a ``delta``, glTF has only what changed.
+    of the document beside each other. With a ``delta``, glTF has only what changed; with a
+    ``stretch``, a film has only these frames, which `JoinOptions` make a film of.
     """
 
     format: SceneFormat = SceneFormat.GLB
@@ -63,6 +76,14 @@ class RenderOptions:
     sheet: bool = False
     sweep: tuple[str, ...] = ()
     delta: Delta | None = None
+    stretch: Stretch | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class JoinOptions:
+    """Make the ``film`` of its frames, which come in place of the document, stretch by stretch."""
+
+    film: RenderOptions
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +149,7 @@ class ReviseOptions:
     change: Change
 
 
-Options: TypeAlias = RenderOptions | LayoutOptions | ConvertOptions | ReviseOptions
+Options: TypeAlias = RenderOptions | LayoutOptions | ConvertOptions | ReviseOptions | JoinOptions
 
 
 def is_slow(options: Options) -> bool:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from app.answers import RenderOptions
+from app.layout import Progress, silent
 from app.output.animation import write_mp4, write_webp
+from app.output.frames import pack_frames, unpack_frames
 from app.output.media import SceneFormat
 from app.output.sheet import Sheet
 from app.pictures import Artist, size_of_one_eye
@@ -20,17 +24,33 @@ if TYPE_CHECKING:
 
 
 def film(program: Program, artist: Artist) -> bytes:
-    """The scene moving, as the options wish."""
+    """The scene moving, as the options wish; or, of a stretch of it, the frames."""
+    frames = _frames(program, artist)
+    options = artist.options
+    return _written(frames, options) if options.stretch is None else pack_frames(frames)
+
+
+def joined(frames: bytes, options: RenderOptions, progress: Progress = silent) -> bytes:
+    """The film whose stretches are these, one after the other."""
+    return _written(unpack_frames(frames), options, progress)
+
+
+def _written(frames: Iterable[Image], options: RenderOptions, progress: Progress = silent) -> bytes:
+    write = write_mp4 if options.format is SceneFormat.MP4 else write_webp
+    return write(frames, options.frames, options.seconds, progress)
+
+
+def _frames(program: Program, artist: Artist) -> Iterator[Image]:
     options, view = artist.options, program.view
     width, height = size_of_one_eye(view, options.width, options.height)
     scene = make_scene(
         program, width / height, artist.progress, height=height, layout=artist.layout
     )
     cameras = cameras_of(scene, options.motion or "turntable", options.frames)
+    if options.stretch is not None:
+        cameras = cameras[options.stretch.first : options.stretch.end]
     artist.count = len(cameras) * (1 if view.stereo is None else 2)
-    frames = artist.views(scene, view, cameras, options.width, options.height)
-    write = write_mp4 if options.format is SceneFormat.MP4 else write_webp
-    return write(frames, len(cameras), options.seconds)
+    return artist.views(scene, view, cameras, options.width, options.height)
 
 
 def contact_sheet(program: Program, artist: Artist) -> Image:

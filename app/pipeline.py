@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import time
+from dataclasses import replace
 
 from app import __version__
 from app.answers import (
     Answer,
     ConvertOptions,
+    JoinOptions,
     LayoutOptions,
     Options,
     RenderOptions,
@@ -17,7 +19,7 @@ from app.answers import (
     Unchanged,
     is_known,
 )
-from app.compositions import contact_sheet, film, variations
+from app.compositions import contact_sheet, film, joined, variations
 from app.errors import PictureTooLarge
 from app.formats import registry
 from app.layout import Preview, Progress, judge, lay_out, silent
@@ -78,6 +80,9 @@ def answer(
             return layout_of(data, options, settings, known, progress, layout)
         case ConvertOptions():
             return convert(data, options, settings, known, progress)
+        case JoinOptions(film=wanted):
+            body = joined(data, wanted, progress)
+            return Answer(body, wanted.format.media_type, None)
         case ReviseOptions():
             with collection_paused():
                 return revise(data, layout, options.change, settings, progress)
@@ -101,12 +106,14 @@ def render(
     with collection_paused():
         progress("reading", 0.0)
         program = registry.read(options.source, data, settings)
-        etag = validator(program, options, layout)
+        etag = validator(program, replace(options, stretch=None), layout)
         if is_known(etag, known):
             return Unchanged(etag)
         laid = None if layout is None else read_layout(program, layout)
         seconds = TIME_FOR_PICTURES * settings.deadline_seconds
-        deadline = began + min(options.effort.time_limit or seconds, seconds)
+        seconds = min(options.effort.time_limit or seconds, seconds)
+        share = 1.0 if options.stretch is None else options.stretch.share
+        deadline = began + share * seconds
         artist = Artist(options, deadline, progress, preview, laid)
         body = _body(program, options, settings, artist, progress)
         progress("done", 1.0)
