@@ -7,7 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 
@@ -18,6 +18,15 @@ def _parted(value: Any) -> Any:
     return value
 
 
+def _rate(value: str) -> str:
+    """A rate that can be kept. Raises `ValueError`."""
+    from limits import parse_many
+
+    parse_many(value)
+    return value
+
+
+Rate = Annotated[str, AfterValidator(_rate)]
 Names = Annotated[tuple[str, ...], NoDecode, BeforeValidator(_parted)]
 
 
@@ -56,10 +65,10 @@ class Settings(BaseSettings):
     auth: Literal["auto", "required", "off"] = Field(
         "auto", description="Whether keys are needed; auto: unless only this machine is served."
     )
-    rate_per_key: str | None = Field(
+    rate_per_key: Rate | None = Field(
         None, description="Most requests with one key, such as 20/second; 600/minute."
     )
-    rate_per_address: str | None = Field(
+    rate_per_address: Rate | None = Field(
         None, description="Most requests from one address, where they come without a key."
     )
     budget_seconds: float | None = Field(

@@ -3,7 +3,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from pydantic import ValidationError
 
+from app.settings import Settings
 from tests.api.keys import bearer, make_key
 from tests.service import SMALL, Service, large_program, running_service
 
@@ -96,3 +98,9 @@ def test_without_keys_addresses_are_counted(tmp_path: Path) -> None:
             headers = {"X-Forwarded-For": f"203.0.113.{number}"}
             answer = client.post("/v1/layout", json=SMALL, headers=headers)
             assert answer.status_code == status
+
+
+@pytest.mark.parametrize("rate", ["often", "5", "0/minute;x", "-1/second", "5/fortnight"])
+def test_rates_that_are_none_are_refused_at_the_start(rate: str, tmp_path: Path) -> None:
+    with pytest.raises(ValidationError, match="rate_per_key"):
+        Settings(data_folder=tmp_path, rate_per_key=rate)
