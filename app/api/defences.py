@@ -125,7 +125,7 @@ def is_this_machine(name: str) -> bool:
     >>> is_this_machine("localhost"), is_this_machine("127.0.0.1"), is_this_machine("a.example")
     (True, True, False)
     """
-    if name == "localhost" or name.endswith(".localhost"):
+    if name in {"localhost", "127.0.0.1", "::1"} or name.endswith(".localhost"):
         return True
     try:
         return ipaddress.ip_address(name).is_loopback

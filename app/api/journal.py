@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import logging
+import os
 import re
 import sys
 import time
-import uuid
-from typing import Literal
+from collections.abc import Mapping
+from typing import Any, Literal
 
 import structlog
+from pydantic_core import to_json
 from starlette._utils import get_route_path
-from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import ClientDisconnect, Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -20,6 +21,7 @@ from app.api.problems import problem_response
 log = structlog.get_logger("tubeloom.http")
 
 HEADER = "X-Request-ID"
+_HEADER = HEADER.lower().encode()
 
 _SANE = re.compile(r"[A-Za-z0-9._:-]{1,128}")
 
@@ -29,21 +31,14 @@ CLIENT_GONE = 499
 
 def configure_logging(log_format: Literal["console", "json"]) -> None:
     """Write every event to standard error, other libraries' too, as lines for people or as JSON."""
-    shared: list[structlog.typing.Processor] = [
+    own: list[structlog.typing.Processor] = [
         structlog.contextvars.merge_contextvars,
         structlog.stdlib.add_log_level,
         structlog.stdlib.add_logger_name,
-        structlog.stdlib.ExtraAdder(allow=()),
         structlog.processors.TimeStamper(fmt="iso", utc=True),
     ]
-    structlog.configure(
-        processors=[*shared, structlog.stdlib.ProcessorFormatter.wrap_for_formatter],
-        logger_factory=structlog.stdlib.LoggerFactory(),
-        wrapper_class=structlog.stdlib.BoundLogger,
-        cache_logger_on_first_use=True,
-    )
     last: list[structlog.typing.Processor] = (
-        [structlog.processors.format_exc_info, structlog.processors.JSONRenderer()]
+        [structlog.processors.format_exc_info, structlog.processors.JSONRenderer(_json)]
         if log_format == "json"
         else [
             structlog.dev.ConsoleRenderer(
@@ -51,14 +46,33 @@ def configure_logging(log_format: Literal["console", "json"]) -> None:
             )
         ]
     )
+    # Our own events do not take the way through the standard library, which is three times as long.
+    structlog.configure(
+        processors=[*own, *last],
+        logger_factory=_NamedLogger,
+        wrapper_class=structlog.make_filtering_bound_logger(logging.INFO),
+        cache_logger_on_first_use=True,
+    )
     handler = logging.StreamHandler()
     handler.setFormatter(
         structlog.stdlib.ProcessorFormatter(
-            foreign_pre_chain=shared,
+            foreign_pre_chain=[*own, structlog.stdlib.ExtraAdder(allow=())],
             processors=[structlog.stdlib.ProcessorFormatter.remove_processors_meta, *last],
         )
     )
     logging.basicConfig(level=logging.INFO, handlers=[handler], force=True)
+
+
+class _NamedLogger(structlog.WriteLogger):
+    """Writes to standard error, and knows its name."""
+
+    def __init__(self, name: str = "tubeloom") -> None:
+        super().__init__(sys.stderr)
+        self.name = name
+
+
+def _json(event: Mapping[str, Any], **_: Any) -> str:
+    return to_json(event, fallback=repr).decode()
 
 
 class Journal:
@@ -81,7 +95,7 @@ class Journal:
             nonlocal status, sent_bytes, answered
             if message["type"] == "http.response.start":
                 status, answered = message["status"], time.perf_counter()
-                MutableHeaders(scope=message)[HEADER] = request_id
+                message["headers"] = [*message["headers"], (_HEADER, request_id.encode())]
             else:
                 sent_bytes += len(message.get("body", b""))
             await send(message)
@@ -113,5 +127,9 @@ class Journal:
 
 
 def _request_id(scope: Scope) -> str:
-    given = Headers(scope=scope).get(HEADER, "")
-    return given if _SANE.fullmatch(given) else uuid.uuid4().hex
+    for name, value in scope["headers"]:
+        if name == _HEADER:
+            given: str = value.decode("latin-1")
+            if _SANE.fullmatch(given):
+                return given
+    return os.urandom(16).hex()

@@ -41,6 +41,8 @@ def choose(accept: str | None, offers: Mapping[str, Format]) -> Format:
     >>> choose("image/*, model/gltf-binary;q=0.5", offers), choose(None, offers)
     ('png', 'glb')
     """
+    if accept is None or accept == "*/*":  # as most clients say: everything is equal
+        return next(iter(offers.values()))
     ranges = parse_accept(accept or "*/*")
     qualities = {media_type: _quality(media_type, ranges) for media_type in offers}
     best = max(qualities, key=qualities.__getitem__)

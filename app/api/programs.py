@@ -16,6 +16,7 @@ from app.api.asking import ask
 from app.api.bodies import read_document, source_of
 from app.api.negotiation import choose, names, without
 from app.api.queries import ConvertQuery, LayoutQuery, RenderQuery
+from app.api.quick_routes import QuickRoute
 from app.api.responses import response_of
 from app.api.scene_queries import render_options, scene_format
 from app.api.schema import describe
@@ -23,7 +24,9 @@ from app.formats.registry import FORMATS
 from app.jobs.answering import Answering
 from app.settings import Settings
 
-router = APIRouter(prefix="/v1", tags=["programs"], default_response_class=Response)
+router = APIRouter(
+    prefix="/v1", tags=["programs"], default_response_class=Response, route_class=QuickRoute
+)
 
 NUMBERS: Mapping[str, str] = {"application/json": "json"}
 

@@ -37,9 +37,10 @@ class PiecesResponse(Response):
         await send(
             {"type": "http.response.start", "status": self.status_code, "headers": self.raw_headers}
         )
-        for piece in self.pieces:
+        for piece in self.pieces[:-1]:
             await send({"type": "http.response.body", "body": piece, "more_body": True})
-        await send({"type": "http.response.body", "body": b""})
+        last = self.pieces[-1] if self.pieces else b""
+        await send({"type": "http.response.body", "body": last})
 
 
 def response_of(finished: Finished, ending: str) -> Response:

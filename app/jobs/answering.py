@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import hashlib
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Self
 
@@ -23,7 +23,7 @@ from app.jobs.flights import Flights
 from app.jobs.memory import LARGEST_SHARE, Kept, Memory
 from app.jobs.process import Listener
 from app.settings import Settings
-from app.store.results import Result, Results
+from app.store.results import PIECE_BYTES, Result, Results
 
 log = structlog.get_logger("tubeloom.jobs")
 
@@ -64,7 +64,7 @@ class Answering:
     def key(self, document: bytes, options: Options, layout: bytes | None = None) -> str:
         """Of the answer: 64 hexadecimal digits. Equal keys have equal answers."""
         digest = self._root.copy()
-        digest.update(f"{options!r}\n{len(document)}\n{layout is None}\n".encode())
+        digest.update(f"{_asked(options)}\n{len(document)}\n{layout is None}\n".encode())
         digest.update(document)
         digest.update(layout or b"")
         return digest.hexdigest()
@@ -144,14 +144,16 @@ class Answering:
         answer = finished.answer
         if not isinstance(answer, Answer) or answer.etag is None:
             return
-        self._memory.put(key, (answer, finished.pieces))
         size = sum(map(len, finished.pieces))
+        # As many pieces as the answer came in would each be sent on its own, time and again.
+        pieces = (b"".join(finished.pieces),) if size <= PIECE_BYTES else finished.pieces
+        self._memory.put(key, (answer, pieces))
         if size * LARGEST_SHARE > self._results.most_bytes:
             return
         if self._storing and self._storing_bytes + size > STORING_BYTES:
             return
         result = Result(
-            finished.pieces,
+            pieces,
             answer.media_type,
             {"etag": answer.etag, "name": answer.name, "notes": dict(answer.notes)},
         )
@@ -188,6 +190,16 @@ def _limits(settings: Settings) -> list[tuple[str, object]]:
     """What is refused elsewhere or at other times must not be answered from memory here."""
     names = (name for name in type(settings).model_fields if name.startswith("max_"))
     return [(name, getattr(settings, name)) for name in names]
+
+
+def _asked(options: Options) -> str:
+    """All that is asked, always in the same words."""
+    if isinstance(options, RenderOptions) and options.delta is not None:
+        return repr(options)  # which may be long, and is not asked often
+    return _remembered_repr(options)
+
+
+_remembered_repr = lru_cache(256)(repr)
 
 
 def _is_long(document: bytes, layout: bytes | None) -> bool:

@@ -25,7 +25,7 @@ def labels(**values: str) -> frozenset[tuple[str, str]]:
 def test_requests_and_their_stages_are_counted(client: httpx.Client) -> None:
     rendered = labels(method="POST", route="/v1/render", status="200")
     before = samples(client)
-    assert client.post("/v1/render", json=SMALL).status_code == 200
+    assert client.post("/v1/render", json={**SMALL, "name": "Not seen before"}).status_code == 200
     assert client.post("/v1/render", content=b"no").status_code == 400
     after = samples(client)
 
