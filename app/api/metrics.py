@@ -25,6 +25,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from app.api.scopes import TABLE, ScopeTable
+from app.jobs.answering import Answering
 from app.jobs.executor import WorkerPool
 from app.jobs.work import Stage
 
@@ -79,22 +80,13 @@ class Metrics:
             ["stage"],
             registry=self.registry,
         )
-        self.cache = Counter(
-            "tubeloom_cache",
-            "Answers that were looked for among those known.",
-            ["outcome"],
-            registry=self.registry,
-        )
-        """Count a look by ``cache.labels("hit")`` or ``"miss"``."""
         self.jobs = Gauge("tubeloom_jobs", "Jobs by state.", ["state"], registry=self.registry)
-        """Set by ``jobs.labels("waiting")`` and ``"running"``, or let them call a function."""
+        """For ``jobs.labels("waiting")`` and ``"running"`` to be set, or to call a function."""
         self.viewers = Gauge(
             "tubeloom_event_viewers",
             "Clients that follow events of programs and jobs.",
             registry=self.registry,
         )
-        for outcome in ("hit", "miss"):
-            self.cache.labels(outcome)
         for state in ("waiting", "running"):
             self.jobs.labels(state)
 
@@ -115,9 +107,11 @@ class Metrics:
         for stage in stages:
             self._stages.labels(self._stage_name(stage.name)).observe(stage.seconds)
 
-    def text(self) -> bytes:
-        """Everything, as Prometheus reads it."""
-        return generate_latest(self.registry)
+    def text(self, answering: Answering) -> bytes:
+        """Everything, as Prometheus reads it; also what ``answering`` has counted."""
+        more = CollectorRegistry()
+        more.register(_OfAnswers(answering))
+        return generate_latest(self.registry) + generate_latest(more)
 
     def _stage_name(self, name: str) -> str:
         if name not in self._stage_names:
@@ -144,8 +138,26 @@ class _OfPool(Collector):
         )
 
 
+class _OfAnswers(Collector):
+    def __init__(self, answering: Answering) -> None:
+        self._answering = answering
+
+    def collect(self) -> Iterable[Metric]:
+        answers = CounterMetricFamily(
+            "tubeloom_cache", "Answers by where they came from.", labels=["outcome"]
+        )
+        answers.add_metric(["hit"], self._answering.hits)
+        answers.add_metric(["shared"], self._answering.shared)
+        answers.add_metric(["miss"], self._answering.misses)
+        yield answers
+
+
 @router.get("/metrics")
 async def metrics(request: Request) -> Response:
     """Figures of the service."""
     found: Metrics = request.app.state.metrics
-    return Response(found.text(), media_type=MEDIA_TYPE, headers={"Cache-Control": "no-store"})
+    return Response(
+        found.text(request.app.state.answering),
+        media_type=MEDIA_TYPE,
+        headers={"Cache-Control": "no-store"},
+    )

@@ -53,10 +53,20 @@ def test_workers_are_counted(client: httpx.Client) -> None:
     assert ("tubeloom_workers", labels(state="busy")) in found
     assert found["tubeloom_waiting", frozenset()] == 0
     assert ("tubeloom_workers_lost_total", frozenset()) in found
-    assert ("tubeloom_cache_total", labels(outcome="hit")) in found
     assert ("tubeloom_jobs", labels(state="waiting")) in found
     assert ("tubeloom_event_viewers", frozenset()) in found
     assert found["process_open_fds", frozenset()] > 0
+
+
+def test_what_is_asked_again_is_counted_as_such(client: httpx.Client) -> None:
+    before = samples(client)
+    document = {**SMALL, "name": "Asked twice, and nowhere else"}
+    for _ in range(2):
+        assert client.post("/v1/layout", json=document).status_code == 200
+    after = samples(client)
+    for outcome, grown in (("hit", 1), ("miss", 1), ("shared", 0)):
+        key = ("tubeloom_cache_total", labels(outcome=outcome))
+        assert after[key] - before[key] == grown
 
 
 def test_a_worker_that_dies_is_counted(tmp_path: Path) -> None:
