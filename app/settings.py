@@ -89,6 +89,31 @@ class Settings(BaseSettings):
         None, description="URL of an OpenTelemetry collector (OTLP over HTTP) that gets spans."
     )
 
+    require_if_match: bool = Field(
+        False, description="Whether changes of stored programs must say which revision they change."
+    )
+    kept_revisions: int = Field(
+        100, ge=2, description="Of each stored program; older ones cannot be restored."
+    )
+    max_programs: int = Field(100_000, ge=0, description="That are stored.")
+    max_watchers: int = Field(5_000, ge=0, description="Of all stored programs' events together.")
+    look_seconds: float = Field(
+        0.5,
+        ge=0.05,
+        description="How often a watched program is looked up, lest another service changed it.",
+    )
+
+    job_workers: int = Field(1, ge=1, le=256, description="Processes that work on jobs.")
+    job_deadline_seconds: float = Field(600.0, gt=0, description="Longest work on one job.")
+    job_attempts: int = Field(
+        3, ge=1, description="So often is a work begun whose process dies over it."
+    )
+    job_result_hours: float = Field(24.0, gt=0, description="What a job made is kept so long.")
+    max_jobs_waiting: int = Field(1_000, ge=0, description="Jobs that nobody works on yet.")
+    dask_scheduler: str = Field(
+        "", description="tcp://… of a Dask scheduler, whose workers then do the jobs."
+    )
+
     max_body_bytes: int = Field(32 * 1024 * 1024, ge=1)
     max_held_bytes: int = Field(
         512 * 1024 * 1024, ge=1, description="Of all bodies that are read or worked on at a time."

@@ -61,11 +61,12 @@ class WorkerPool:
     """As many worker processes as the settings say, each replaced when it dies.
 
     Use it as an asynchronous context manager. Its start does not wait for the workers: works
-    that come before they are warm stand in line.
+    that come before they are warm stand in line. A work whose worker dies is tried ``attempts``
+    times.
     """
 
-    def __init__(self, settings: Settings) -> None:
-        self._settings = settings
+    def __init__(self, settings: Settings, attempts: int = 2) -> None:
+        self._settings, self._attempts = settings, attempts
         self._idle: list[WorkerProcess] = []
         self._line: deque[asyncio.Future[WorkerProcess]] = deque()
         self._slots: list[asyncio.Task[None]] = []
@@ -116,10 +117,7 @@ class WorkerPool:
         """
         work = Work(options, known, reports=listener is not None, layout=layout)
         reply, pieces, waited = await self._ask(work, document, listener)
-        outcome = _unwrap(reply)
-        if isinstance(outcome, Revised):
-            raise TypeError("A worker revised where nobody had asked for that.")
-        return Finished(outcome, pieces, waited, reply.stages)
+        return Finished(outcome_of(reply), pieces, waited, reply.stages)
 
     async def revise(self, document: bytes, layout: bytes | None, change: Change) -> Revised:
         """The next revision of a stored program, made in a worker process. Raises the same."""
@@ -135,9 +133,9 @@ class WorkerPool:
         """A reply, its payload, and the seconds that the work waited for a worker."""
         clock = asyncio.get_running_loop().time
         waited = 0.0
-        for retry in (False, True):
+        for attempt in range(1, self._attempts + 1):
             came = clock()
-            worker = await self._take(first=retry)
+            worker = await self._take(first=attempt > 1)
             began = clock()
             waited += began - came
             stages: tuple[Stage, ...] = ()
@@ -146,12 +144,12 @@ class WorkerPool:
                 stages = reply.stages
             except WorkerDiedError:
                 self.lost += 1
-                log.warning("worker died at work", pid=worker.pid, retry=not retry)
+                log.warning("worker died at work", pid=worker.pid, attempt=attempt)
             else:
                 return reply, pieces, waited
             finally:
                 self.witness(clock() - began, stages)
-        raise WorkerLost("The process that worked on this document died, and so did a second one.")
+        raise WorkerLost(lost_after(self._attempts))
 
     async def _do(
         self, worker: WorkerProcess, work: Work, document: bytes, listener: Listener | None
@@ -260,6 +258,15 @@ class WorkerPool:
         return True
 
 
+def lost_after(attempts: int) -> str:
+    """What is said where so many workers died over the same work."""
+    others = {1: "", 2: ", and so did a second one"}
+    return (
+        "The process that worked on this document died"
+        f"{others.get(attempts, f', and so did {attempts - 1} more')}."
+    )
+
+
 def _unwitnessed(_seconds: float, _stages: tuple[Stage, ...]) -> None:
     """Where nobody wants to know."""
 
@@ -272,3 +279,11 @@ def _unwrap(reply: Reply) -> Answer | Unchanged | Revised:
             raise UnexpectedError(traceback)
         case error:
             raise error
+
+
+def outcome_of(reply: Reply) -> Answer | Unchanged:
+    """What a worker answered. Raises what went wrong."""
+    outcome = _unwrap(reply)
+    if isinstance(outcome, Revised):
+        raise TypeError("A worker revised where nobody had asked for that.")
+    return outcome
