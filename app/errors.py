@@ -18,6 +18,7 @@
     ├── DeadlineExceeded            the work took longer than it may
     ├── Overloaded                  too much work is waiting already
     ├── NotStored                   no such program, revision, job or result is stored
+    ├── StoreFull                   no more programs are taken
     ├── Outdated                    somebody else changed a stored program first
     ├── NothingToUndo               there is no change to take back, or to make again
     └── StoreUnavailable            the database or the object store does not answer
@@ -129,6 +130,10 @@ class Overloaded(TubeloomError):
 
 class NotStored(TubeloomError):
     """There is no such program, revision, job or result (any more)."""
+
+
+class StoreFull(TubeloomError):
+    """As many programs are stored as this service takes."""
 
 
 class Outdated(TubeloomError):

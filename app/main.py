@@ -4,18 +4,28 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import AsyncExitStack, asynccontextmanager
 
 from fastapi import FastAPI
 from starlette.exceptions import HTTPException
 from starlette.middleware.cors import CORSMiddleware
 
 from app import __version__
-from app.api import catalogue, docs, health, metrics, programs, schema
+from app.api import (
+    catalogue,
+    docs,
+    health,
+    metrics,
+    programs,
+    schema,
+    stored_programs,
+    stored_views,
+)
 from app.api.accounts import accountant
 from app.api.bodies import HeldBodies
 from app.api.cross_origin import EXPOSED_HEADERS, HEADERS, METHODS
 from app.api.defences import Defences
+from app.api.feed import Feed
 from app.api.guard import Guard
 from app.api.journal import Journal
 from app.api.keyring import Keyring
@@ -23,6 +33,7 @@ from app.api.metrics import Metrics
 from app.api.problems import KINDS, answer_problem
 from app.api.tracing import OFF, tracing_of
 from app.jobs.answering import Answering
+from app.jobs.changing import Changer
 from app.jobs.executor import WorkerPool
 from app.settings import Settings
 from app.settings import settings as settings_of_process
@@ -38,6 +49,10 @@ curl --data-binary @program.json 'http://127.0.0.1:8000/v1/render?format=png' -o
 """
 
 
+ROUTED = (programs, stored_programs, stored_views, catalogue, health, metrics, docs)
+"""Modules with routes, in the order in which the interface's description shows them."""
+
+
 def create_app(settings: Settings | None = None) -> FastAPI:
     """The application, with the ``settings`` given or those of the environment."""
     chosen = settings or settings_of_process()
@@ -45,24 +60,28 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        database = Database(chosen.database_url)
-        await asyncio.to_thread(database.migrate)
-        app.state.database, app.state.keyring = database, Keyring(database)
-        try:
-            async with (
-                WorkerPool(chosen) as pool,
-                Results(chosen.results_place, database, chosen.results_bytes) as results,
-                Answering(pool, results, chosen) as answering,
-            ):
-                app.state.results, app.state.answering = results, answering
-                pool.witness = accountant(app.state.metrics, tracing)
-                app.state.metrics.watch(pool, chosen.workers)
-                app.state.pool, app.state.examiner = pool, health.Examiner(pool, database)
-                yield
-        finally:
-            await asyncio.to_thread(database.close)
+        async with AsyncExitStack() as stack:
             if tracing is not None:
-                await asyncio.to_thread(tracing.close)
+                stack.push_async_callback(asyncio.to_thread, tracing.close)
+            database = Database(chosen.database_url)
+            stack.push_async_callback(asyncio.to_thread, database.close)
+            await asyncio.to_thread(database.migrate)
+            pool = await stack.enter_async_context(WorkerPool(chosen))
+            pool.witness = accountant(app.state.metrics, tracing)
+            app.state.metrics.watch(pool, chosen.workers)
+            results = await stack.enter_async_context(
+                Results(chosen.results_place, database, chosen.results_bytes)
+            )
+            app.state.results = results
+            app.state.answering = await stack.enter_async_context(Answering(pool, results, chosen))
+            feed = await stack.enter_async_context(Feed(database, chosen))
+            changer = Changer(database, pool, chosen)
+            changer.listener = feed.tell
+            app.state.database, app.state.keyring = database, Keyring(database)
+            app.state.pool, app.state.examiner = pool, health.Examiner(pool, database)
+            app.state.feed, app.state.changer = feed, changer
+            app.state.before_shutdown = [feed.end]
+            yield
 
     app = FastAPI(
         title="Tubeloom",
@@ -81,8 +100,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.held_bodies, app.state.metrics = HeldBodies(chosen.max_held_bytes), Metrics()
     _protect(app, chosen)
     app.add_middleware(Journal)
-    for router in (programs.router, catalogue.router, health.router, metrics.router, docs.router):
-        app.include_router(router)
+    for part in ROUTED:
+        app.include_router(part.router)
     app.router.routes.append(docs.assets())
     app.openapi = lambda: schema.openapi(app)  # type: ignore[method-assign]  # FastAPI's own way
     return app

@@ -13,6 +13,7 @@ if [ "${1:-}" = test ]; then
   has_library libEGL.so.1 && has_library libEGL_mesa || lacks+=(egl)
   command -v node >/dev/null && command -v npm >/dev/null || lacks+=(node)
   command -v chromium >/dev/null || lacks+=(chromium)
+  ls /usr/lib/postgresql/*/bin/postgres >/dev/null 2>&1 || lacks+=(postgres)
 elif [ "${1:-}" = bench ]; then
   command -v neato >/dev/null && command -v sfdp >/dev/null || lacks+=(graphviz)
 elif ! has_library libOSMesa.so && ! has_library libEGL_mesa; then
@@ -46,6 +47,7 @@ for part in "${lacks[@]}"; do
       ;;
     egl) packages+=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri) ;;
     chromium) packages+=(chromium) ;;
+    postgres) packages+=(postgresql) ;;
     graphviz) packages+=(graphviz) ;;
     node) packages+=(nodejs npm) ;;
   esac

@@ -19,6 +19,10 @@ FORM = "application/x-www-form-urlencoded"
 """What ``curl --data-binary`` says of whatever it sends; taken for JSON out of kindness."""
 
 
+MOST_NEEDLESS_BYTES = 65_536
+"""That are passed over where nothing is wanted."""
+
+
 @dataclass(slots=True)
 class HeldBodies:
     """Bodies of all requests that are being served: ``bytes`` now, and ``most`` at a time."""
@@ -46,6 +50,18 @@ async def read_document(request: Request, limit: int) -> bytes:
     read at a time, and `BodyTooLargeError`, the latter as soon as it is known.
     """
     _check_is_json(request.headers)
+    return await _in_time(request, limit)
+
+
+async def pass_over_body(request: Request) -> None:
+    """Read what a request carries that should carry nothing, so that only its end can come.
+
+    Raises `BodyTooLargeError` and `SlowUploadError`.
+    """
+    await _in_time(request, MOST_NEEDLESS_BYTES)
+
+
+async def _in_time(request: Request, limit: int) -> bytes:
     settings: Settings = request.app.state.settings
     try:
         async with asyncio.timeout(settings.upload_seconds):

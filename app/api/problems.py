@@ -26,9 +26,13 @@ from app.errors import (
     ImpossibleSweep,
     InconsistentDocument,
     InvalidDocument,
+    NothingToUndo,
+    NotStored,
     Overloaded,
+    PatchConflict,
     PictureTooLarge,
     RendererUnavailable,
+    StoreFull,
     StoreUnavailable,
     TubeloomError,
     UnknownName,
@@ -88,6 +92,26 @@ class WrongScopeError(RefusalError):
         self.headers = {"WWW-Authenticate": challenge}
 
 
+class PreconditionFailedError(RefusalError):
+    """A stored program is not in the state that the request asks for."""
+
+
+class PreconditionRequiredError(RefusalError):
+    """The request must say which revision of a stored program it changes."""
+
+
+class ReusedKeyError(RefusalError):
+    """An ``Idempotency-Key`` that cannot be used, or was for another request."""
+
+
+class PatchTypeError(RefusalError):
+    """The body is no kind of patch that is known."""
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail)
+        self.headers = {"Accept-Patch": "application/json-patch+json, application/merge-patch+json"}
+
+
 class TooManyRequestsError(RefusalError):
     """Whoever asks has asked for too much lately."""
 
@@ -134,6 +158,14 @@ KINDS: Mapping[type[Exception], Kind] = {
     StoreUnavailable: Kind(503, "store-unavailable", "What is stored cannot be reached."),
     RequestValidationError: Kind(400, "invalid-parameter", "A query parameter is wrong."),
     NotAcceptableError: Kind(406, "not-acceptable", "No format fits what is accepted."),
+    PatchConflict: Kind(409, "patch-conflict", "The patch does not fit the document."),
+    NotStored: Kind(404, "not-stored", "There is no such thing."),
+    NothingToUndo: Kind(409, "nothing-to-undo", "There is no such change."),
+    StoreFull: Kind(507, "store-full", "No more programs are taken."),
+    PreconditionFailedError: Kind(412, "precondition-failed", "Somebody else was first."),
+    PreconditionRequiredError: Kind(428, "precondition-required", "Say what you change."),
+    ReusedKeyError: Kind(422, "reused-key", "The key was used for another request."),
+    PatchTypeError: Kind(415, "unsupported-media-type", "The body is no patch."),
     UnsupportedMediaTypeError: Kind(415, "unsupported-media-type", "The body is not plain JSON."),
     ContradictionError: Kind(422, "contradiction", "The query contradicts itself."),
     BodyTooLargeError: Kind(413, "body-too-large", "The body has too many bytes."),

@@ -18,11 +18,14 @@ from pydantic.json_schema import models_json_schema
 from app.api import problems
 from app.api.journal import HEADER as REQUEST_ID
 from app.api.layout_model import LayoutNumbers
+from app.api.revision_model import RevisionModel
 from app.formats.hypergraph import Hypergraph
 from app.formats.netlist import Netlist
 from app.formats.registry import FORMATS
 from app.output.media import SceneFormat
+from app.program.edit_model import EditList
 from app.program.model import Program
+from app.program.patching import JsonPatchDocument
 
 EXAMPLE = {
     "name": "A relation of three",
@@ -128,16 +131,16 @@ def describe(call: str) -> dict[str, Any]:
         "responses": {
             200: {
                 "description": "The answer.",
-                "headers": _headers("ETag", "Vary", "Content-Disposition", "Server-Timing"),
-                "content": _contents(call),
+                "headers": headers("ETag", "Vary", "Content-Disposition", "Server-Timing"),
+                "content": contents(call),
             },
             304: {
                 "description": "The client has this answer already (`If-None-Match`).",
-                "headers": _headers("ETag", "Vary"),
+                "headers": headers("ETag", "Vary"),
             },
-            **{status: _problem(call, detail) for status, detail in _PROBLEMS.items()},
+            **{status: problem(call, detail) for status, detail in _PROBLEMS.items()},
         },
-        "openapi_extra": {"requestBody": {"required": True, "content": _documents()}},
+        "openapi_extra": {"requestBody": {"required": True, "content": documents()}},
     }
 
 
@@ -157,6 +160,9 @@ def openapi(app: FastAPI) -> dict[str, Any]:
             [
                 *((model, "validation") for model in DOCUMENTS.values()),
                 (LayoutNumbers, "validation"),
+                (EditList, "validation"),
+                (JsonPatchDocument, "validation"),
+                (RevisionModel, "serialization"),
                 (Problem, "validation"),
             ],
             ref_template=_REFERENCES,
@@ -175,37 +181,42 @@ def openapi_text(app: FastAPI) -> str:
     return json.dumps(openapi(app), indent=2, ensure_ascii=False) + "\n"
 
 
-def _documents() -> dict[str, Any]:
+def documents() -> dict[str, Any]:
+    """Contents of a body that is a document."""
     return {
-        found.media_type: {"schema": _reference(DOCUMENTS[name]), "example": EXAMPLES[name]}
+        found.media_type: {"schema": reference(DOCUMENTS[name]), "example": EXAMPLES[name]}
         for name, found in FORMATS.items()
     }
 
 
-def _contents(call: str) -> dict[str, Any]:
+def contents(call: str) -> dict[str, Any]:
+    """Contents of the answers to a call."""
     match call:
         case "render":
             return {scene.media_type: {"schema": _BINARY} for scene in SceneFormat}
         case "layout":
-            return {"application/json": {"schema": _reference(LayoutNumbers)}}
+            return {"application/json": {"schema": reference(LayoutNumbers)}}
         case _:
             return {
-                found.media_type: {"schema": _reference(DOCUMENTS[name])}
+                found.media_type: {"schema": reference(DOCUMENTS[name])}
                 for name, found in FORMATS.items()
                 if found.writes
             }
 
 
-def _problem(call: str, detail: str) -> dict[str, Any]:
-    content: dict[str, Any] = {problems.MEDIA_TYPE: {"schema": _reference(Problem)}}
+def problem(call: str, detail: str) -> dict[str, Any]:
+    """An answer of a call that tells what went wrong."""
+    content: dict[str, Any] = {problems.MEDIA_TYPE: {"schema": reference(Problem)}}
     if call == "render":  # with errors=image
         content |= {each.media_type: {} for each in (SceneFormat.PNG, SceneFormat.SVG)}
     return {"description": detail, "content": content}
 
 
-def _headers(*names: str) -> dict[str, Any]:
+def headers(*names: str) -> dict[str, Any]:
+    """Headers of an answer."""
     return {name: {"schema": {"type": "string"}} for name in (*names, REQUEST_ID)}
 
 
-def _reference(model: type[BaseModel]) -> dict[str, str]:
+def reference(model: type[BaseModel]) -> dict[str, str]:
+    """Where the schema of a model is."""
     return {"$ref": _REFERENCES.format(model=model.__name__)}

@@ -12,16 +12,19 @@ import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
+import sqlalchemy
 import structlog
-from sqlalchemy import Connection, create_engine, event
+from sqlalchemy import create_engine, event
 from sqlalchemy.engine import URL, Engine, make_url
 from sqlalchemy.exc import DBAPIError, InterfaceError, OperationalError
 
 from app.errors import StoreUnavailable
 
 log = structlog.get_logger("tubeloom.store")
+
+Connection: TypeAlias = sqlalchemy.Connection
 
 Found = TypeVar("Found")
 

@@ -7,8 +7,8 @@ knows which one's content an undo of it restores (``undo_to``), and which one's 
 
 from __future__ import annotations
 
-import time
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
@@ -24,6 +24,12 @@ Cause: TypeAlias = Literal["put", "patch", "edit", "undo", "redo", "delete"]
 
 _LEVEL = 1
 """Of deflating: documents become many times smaller, at some 100 kB in a millisecond."""
+
+
+_LONGEST_NAME = 500
+
+_AT_A_TIME = 500
+"""Names in one query."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,12 +159,16 @@ def listing(connection: Connection, after: str | None, limit: int) -> list[Liste
     return [Listed(*row) for row in connection.execute(query)]
 
 
-def heads(connection: Connection, since: int) -> dict[str, int]:
-    """The newest revisions' numbers of programs that changed at or after the time ``since``."""
-    rows = connection.execute(
-        select(programs.c.id, programs.c.revision).where(programs.c.updated_at >= since)
-    )
-    return {row.id: row.revision for row in rows}
+def heads(connection: Connection, names: Sequence[str]) -> dict[str, int]:
+    """The newest revisions' numbers of these programs, be they deleted or not."""
+    found: dict[str, int] = {}
+    for begin in range(0, len(names), _AT_A_TIME):
+        part = names[begin : begin + _AT_A_TIME]
+        rows = connection.execute(
+            select(programs.c.id, programs.c.revision).where(programs.c.id.in_(part))
+        )
+        found.update((row.id, row.revision) for row in rows)
+    return found
 
 
 def add(
@@ -171,14 +181,28 @@ def add(
     undo_to: int | None = None,
     redo_to: int | None = None,
     keep: int,
+    at: int,
 ) -> Record:
     """Make ``revised`` the revision after ``before``, and ``keep`` so many in all.
 
-    Raises `Outdated` where somebody else made one meanwhile.
+    ``at`` is the time of the change: where it is tried again because nobody knows whether it was
+    done, it is found out. Raises `Outdated` where somebody else made one meanwhile.
     """
+    number = 1 if before is None else before.revision + 1
+    own = connection.execute(
+        select(*_RECORD).where(
+            revisions.c.program == program,
+            revisions.c.number == number,
+            revisions.c.digest == revised.digest,
+            revisions.c.created_at == at,
+        )
+    ).one_or_none()
+    if own is not None:
+        return _record(own)
+    _step(connection, program, before, at, deleted=False)
     record = Record(
         program,
-        _step(connection, program, before, deleted=False),
+        number,
         cause,
         revised.name,
         revised.items,
@@ -187,7 +211,7 @@ def add(
         revised.changes,
         undo_to,
         redo_to,
-        _now(),
+        at,
     )
     _insert(connection, record, revised.document, revised.layout)
     connection.execute(
@@ -198,15 +222,25 @@ def add(
     return record
 
 
-def end(connection: Connection, program: str, before: Head) -> Record:
+def end(connection: Connection, program: str, before: Head, at: int) -> Record:
     """Delete a program with all its content; what stays is its number, and that it was deleted.
 
     Raises `Outdated` where somebody changed it meanwhile.
     """
-    number = _step(connection, program, before, deleted=True)
+    _step(connection, program, before, at, deleted=True)
     connection.execute(delete(revisions).where(revisions.c.program == program))
     record = Record(
-        program, number, "delete", None, 0, 0, "", Changes(whole=True), None, None, _now()
+        program,
+        before.revision + 1,
+        "delete",
+        None,
+        0,
+        0,
+        "",
+        Changes(whole=True),
+        None,
+        None,
+        at,
     )
     _insert(connection, record, b"", b"")
     return record
@@ -218,24 +252,25 @@ def count(connection: Connection) -> int:
     return int(connection.execute(query).scalar_one())
 
 
-def _step(connection: Connection, program: str, before: Head | None, *, deleted: bool) -> int:
+def _step(
+    connection: Connection, program: str, before: Head | None, at: int, *, deleted: bool
+) -> None:
     """Move the head from ``before`` to the next number, unless it is elsewhere by now."""
-    now = _now()
     if before is None:
-        row = {"id": program, "revision": 1, "created_at": now, "updated_at": now}
+        row = {"id": program, "revision": 1, "created_at": at, "updated_at": at}
         try:
             with connection.begin_nested():
                 connection.execute(insert(programs).values(row))
         except IntegrityError:
             raise Outdated("The program was made by somebody else meanwhile.") from None
-        return 1
+        return
     values: dict[str, Any] = {
         "revision": before.revision + 1,
-        "updated_at": now,
-        "deleted_at": now if deleted else None,
+        "updated_at": at,
+        "deleted_at": at if deleted else None,
     }
     if before.is_deleted:
-        values["created_at"] = now
+        values["created_at"] = at
     done = connection.execute(
         update(programs)
         .where(programs.c.id == program, programs.c.revision == before.revision)
@@ -243,7 +278,6 @@ def _step(connection: Connection, program: str, before: Head | None, *, deleted:
     )
     if done.rowcount == 0:
         raise Outdated("The program was changed by somebody else meanwhile.")
-    return before.revision + 1
 
 
 def _insert(connection: Connection, record: Record, document: bytes, layout: bytes) -> None:
@@ -252,7 +286,7 @@ def _insert(connection: Connection, record: Record, document: bytes, layout: byt
             program=record.program,
             number=record.number,
             cause=record.cause,
-            name=record.name,
+            name=_storable(record.name),
             items=record.items,
             hyperedges=record.hyperedges,
             digest=record.digest,
@@ -264,6 +298,11 @@ def _insert(connection: Connection, record: Record, document: bytes, layout: byt
             created_at=record.created_at,
         )
     )
+
+
+def _storable(name: str | None) -> str | None:
+    """A name as every database can keep it: PostgreSQL has no character 0."""
+    return None if name is None else name.replace("\0", "\N{REPLACEMENT CHARACTER}")[:_LONGEST_NAME]
 
 
 def _newest(program: str, *columns: Any) -> Select[Any]:
@@ -291,7 +330,3 @@ def _record(row: Row[Any]) -> Record:
         row.redo_to,
         row.created_at,
     )
-
-
-def _now() -> int:
-    return time.time_ns() // 1_000_000
