@@ -15,6 +15,7 @@ from app.api import (
     catalogue,
     docs,
     health,
+    jobs,
     metrics,
     programs,
     schema,
@@ -34,7 +35,10 @@ from app.api.problems import KINDS, answer_problem
 from app.api.tracing import OFF, tracing_of
 from app.jobs.answering import Answering
 from app.jobs.changing import Changer
+from app.jobs.crew import crew_of
+from app.jobs.desk import Desk
 from app.jobs.executor import WorkerPool
+from app.jobs.keeper import Keeper
 from app.settings import Settings
 from app.settings import settings as settings_of_process
 from app.store.database import Database
@@ -49,7 +53,7 @@ curl --data-binary @program.json 'http://127.0.0.1:8000/v1/render?format=png' -o
 """
 
 
-ROUTED = (programs, stored_programs, stored_views, catalogue, health, metrics, docs)
+ROUTED = (programs, jobs, stored_programs, stored_views, catalogue, health, metrics, docs)
 """Modules with routes, in the order in which the interface's description shows them."""
 
 
@@ -74,13 +78,16 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             )
             app.state.results = results
             app.state.answering = await stack.enter_async_context(Answering(pool, results, chosen))
+            crew = await stack.enter_async_context(crew_of(chosen, pool.witness))
+            keeper = await stack.enter_async_context(Keeper(chosen, database, results, crew))
+            app.state.desk = Desk(chosen, database, results, keeper)
             feed = await stack.enter_async_context(Feed(database, chosen))
             changer = Changer(database, pool, chosen)
             changer.listener = feed.tell
             app.state.database, app.state.keyring = database, Keyring(database)
             app.state.pool, app.state.examiner = pool, health.Examiner(pool, database)
             app.state.feed, app.state.changer = feed, changer
-            app.state.before_shutdown = [feed.end]
+            app.state.before_shutdown = [feed.end, keeper.listeners.end]
             yield
 
     app = FastAPI(
@@ -101,7 +108,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     _protect(app, chosen)
     app.add_middleware(Journal)
     for part in ROUTED:
-        app.include_router(part.router)
+        app.router.routes.extend(part.router.routes)
     app.router.routes.append(docs.assets())
     app.openapi = lambda: schema.openapi(app)  # type: ignore[method-assign]  # FastAPI's own way
     return app

@@ -137,6 +137,12 @@ def require(request: Request, needed: KeyScope) -> None:
         raise WrongScopeError(needed)
 
 
+def has(request: Request, needed: KeyScope) -> bool:
+    """Whether the request comes with a key that is good for this, or needs none."""
+    key: Key | None = request.scope.get("state", {}).get("key")
+    return key is None or allows(key, needed)
+
+
 def key_of(request: Request) -> str | None:
     """Number of the key that the request came with, where keys are needed."""
     key: Key | None = request.scope.get("state", {}).get("key")

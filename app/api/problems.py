@@ -112,6 +112,14 @@ class PatchTypeError(RefusalError):
         self.headers = {"Accept-Patch": "application/json-patch+json, application/merge-patch+json"}
 
 
+class JobNotDoneError(RefusalError):
+    """What is asked of a job is only there when it is done."""
+
+
+class ResultGoneError(RefusalError):
+    """What a job had made is not kept any more."""
+
+
 class TooManyRequestsError(RefusalError):
     """Whoever asks has asked for too much lately."""
 
@@ -174,6 +182,8 @@ KINDS: Mapping[type[Exception], Kind] = {
     WrongScopeError: Kind(403, "wrong-scope", "The key is not good for this."),
     ForeignPageError: Kind(403, "foreign-page", "Pages of this origin are not allowed."),
     WrongHostError: Kind(421, "wrong-host", "This service does not answer for that host."),
+    JobNotDoneError: Kind(409, "job-not-done", "The job has no result."),
+    ResultGoneError: Kind(410, "result-gone", "The result is not kept any more."),
     TooManyRequestsError: Kind(429, "too-many-requests", "Too much was asked lately."),
 }
 

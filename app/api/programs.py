@@ -14,12 +14,15 @@ from app.answers import ConvertOptions, LayoutOptions, Options
 from app.api import events
 from app.api.asking import ask
 from app.api.bodies import read_document, source_of
+from app.api.job_schema import or_job
 from app.api.negotiation import choose, names, without
+from app.api.prefer import preferences
 from app.api.queries import ConvertQuery, LayoutQuery, RenderQuery
 from app.api.quick_routes import QuickRoute
 from app.api.responses import response_of
 from app.api.scene_queries import render_options, scene_format
 from app.api.schema import describe
+from app.api.starting import start_if_long
 from app.formats.registry import FORMATS
 from app.jobs.answering import Answering
 from app.settings import Settings
@@ -31,13 +34,14 @@ router = APIRouter(
 NUMBERS: Mapping[str, str] = {"application/json": "json"}
 
 
-@router.post("/render", **describe("render"))
+@router.post("/render", **or_job(describe("render")))
 async def render(request: Request, query: Annotated[RenderQuery, QueryParameters()]) -> Response:
     """The scene of the posted program, as glTF, as a picture or a film, or for a printer.
 
     Without `format`, `Accept` decides; without both it is `model/gltf-binary`. Where `Accept` names
     `text/event-stream` too, the answer comes as the last of server-sent events that tell how the
-    work goes on: `progress`, `preview`, `answer`, `problem`.
+    work goes on: `progress`, `preview`, `answer`, `problem`. With `Prefer: respond-async`, what
+    would take longer than a request may (or than `wait=` says, in seconds) becomes a job.
     """
     accept = request.headers.get("accept")
     wanted = scene_format(query, without(events.MEDIA_TYPE, accept))
@@ -46,6 +50,11 @@ async def render(request: Request, query: Annotated[RenderQuery, QueryParameters
         document = await read_document(request, request.app.state.settings.max_body_bytes)
         answering: Answering = request.app.state.answering
         return events.event_response(request, answering, document, options, options.format.value)
+    preferred = preferences(request.headers.getlist("prefer"))
+    if preferred.respond_async:
+        document = await read_document(request, request.app.state.settings.max_body_bytes)
+        started = await start_if_long(request, document, options, preferred)
+        return started or response_of(await ask(request, document, options), options.format.value)
     return await _answer(request, options, options.format.value)
 
 

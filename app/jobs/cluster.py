@@ -140,12 +140,12 @@ class ClusterCrew:
                 timeout=CONNECT_SECONDS,
                 name="tubeloom",
             )
-            client.subscribe_topic(self._topic, self._hear)  # type: ignore[no-untyped-call]
+            client.subscribe_topic(self._topic, self._hear)
             self._client = client
             log.info("scheduler found", address=self._address)
             self._ready.set()
         async with asyncio.timeout(CONNECT_SECONDS):
-            threads: dict[str, int] = await client.nthreads()  # type: ignore[no-untyped-call]
+            threads: dict[str, int] = await client.nthreads()
         self.width = max(sum(threads.values()), 1)
 
     async def _leave(self) -> None:

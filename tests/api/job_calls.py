@@ -1,0 +1,66 @@
+"""Jobs as a client starts and follows them."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import httpx
+
+from tests.service import until
+
+OVER = {"done", "failed", "cancelled"}
+
+PICTURE = "format=png&quality=final&width=64&height=48&samples=1"
+"""A render that takes a second."""
+
+LONG = "format=png&quality=final&width=320&height=240&samples=65536"
+"""A render that takes minutes."""
+
+
+def program(name: str) -> dict[str, Any]:
+    """A small program that no other test asks for."""
+    return {
+        "name": name,
+        "items": [{"id": "x"}, {"id": "y", "shape": {"type": "sphere"}}, {"id": "z"}],
+        "hyperedges": [{"id": "e", "attachments": [{"item": "x"}, {"item": "y"}, {"item": "z"}]}],
+    }
+
+
+def start(
+    client: httpx.Client, query: str, document: dict[str, Any] | bytes, **headers: str
+) -> str:
+    """Start a job; where it is."""
+    content = document if isinstance(document, bytes) else json.dumps(document).encode()
+    response = client.post(f"/v1/jobs?{query}", content=content, headers=headers)
+    assert response.status_code == 202, response.text
+    return response.headers["location"]
+
+
+def state(client: httpx.Client, job: str) -> dict[str, Any]:
+    """How a job is."""
+    response = client.get(job)
+    assert response.status_code == 200, response.text
+    found: dict[str, Any] = response.json()
+    return found
+
+
+def over(client: httpx.Client, job: str, seconds: float = 90.0) -> dict[str, Any]:
+    """How a job is once it is over."""
+
+    def look() -> dict[str, Any] | None:
+        found = state(client, job)
+        return found if found["state"] in OVER else None
+
+    return until(look, seconds)
+
+
+def at_work(client: httpx.Client, job: str, share: float = 0.6) -> dict[str, Any]:
+    """How a job is once so much of its work is done."""
+
+    def look() -> dict[str, Any] | None:
+        found = state(client, job)
+        assert found["state"] not in OVER, found
+        return found if found["share"] >= share else None
+
+    return until(look)
