@@ -38,8 +38,9 @@ ATTEMPTS = 4
 PAUSE_SECONDS = 0.15
 """Before the second attempt; each further pause is twice as long."""
 
-CONFLICTS = frozenset({"40001", "40P01"})
-"""PostgreSQL's codes for serialization failures and deadlocks, which trying again mends."""
+PASSING = frozenset({"40001", "40P01", "53300", "57P01", "57P02", "57P03"})
+"""PostgreSQL's codes for what trying again mends: serialization failures and deadlocks, too many
+connections, a server that stops, has crashed, or is about to start."""
 
 
 class Database:
@@ -144,4 +145,4 @@ def _may_pass(error: DBAPIError) -> bool:
     if error.connection_invalidated or isinstance(error, OperationalError | InterfaceError):
         return True
     details = error.orig.args[0] if error.orig is not None and error.orig.args else None
-    return isinstance(details, dict) and details.get("C") in CONFLICTS
+    return isinstance(details, dict) and details.get("C") in PASSING
