@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PORT ?= 8000
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: help run setup setup-dev test check format bench openapi palettes pictures lock clean
+.PHONY: help run setup setup-dev test check format bench faults openapi palettes pictures lock clean
 
 help:  ## list what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  \1\t/' | expand -t 14
@@ -60,6 +60,12 @@ format: setup-dev  ## put the code in order
 
 bench: $(VENV)/bench.done  ## measure speed, beside peers, and print the tables
 	$(BIN)/python -m benchmarks
+
+faults: setup-dev  ## kill parts of the service in the midst of jobs, and see what becomes of them
+	$(BIN)/python -m benchmarks.faults
+
+load: $(VENV)/bench.done  ## measure the service under load, for some twenty minutes
+	$(BIN)/python -m benchmarks.load $(LOAD)
 
 pictures: setup-dev  ## draw the pictures of the docs anew
 	$(BIN)/python -m tools.pictures

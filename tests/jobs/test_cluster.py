@@ -1,0 +1,107 @@
+"""Jobs on a Dask cluster, with PostgreSQL; whatever is killed, each job ends once."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from tests.api.job_calls import LONG, PICTURE, at_work, over, program, start
+from tests.cluster import Cluster, running_cluster
+from tests.postgres import Postgres, running_postgres
+from tests.service import Service, cpu_seconds, gone, running_service, until
+
+
+@dataclass(frozen=True)
+class Site:
+    """All that there is."""
+
+    service: Service
+    cluster: Cluster
+    postgres: Postgres
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
+    """A service over PostgreSQL, with a cluster of two workers."""
+    folder = tmp_path_factory.mktemp("site")
+    with (
+        running_postgres() as postgres,
+        running_cluster(folder / "cluster") as cluster,
+        running_service(
+            folder, workers=1, database=postgres.url, dask_scheduler=cluster.address
+        ) as service,
+    ):
+        yield Site(service, cluster, postgres)
+
+
+def test_a_cluster_makes_what_the_service_makes_and_tells_how_it_goes_on(site: Site) -> None:
+    with site.service.client() as client:
+        document = program("on a cluster")
+        job = start(client, PICTURE, document)
+        assert at_work(client, job)["stage"] == "drawing"
+        found = over(client, job)
+        assert (found["state"], found["attempts"]) == ("done", 1)
+        plain = client.post(f"/v1/render?{PICTURE}", json=document)
+        assert plain.headers["tubeloom-stopped-by"] == "samples"
+        assert client.get(f"{job}/result").content == plain.content
+        failed = over(client, start(client, "format=glb", b'{"items": 1}'))
+        assert failed["problem"]["errors"][0]["pointer"] == "/items"
+
+
+def test_who_cancels_a_job_frees_a_processor_of_the_cluster_within_a_second(site: Site) -> None:
+    with site.service.client() as client:
+        job = start(client, LONG, program("cancelled on a cluster"))
+        at_work(client, job)
+        spent = {child.pid: cpu_seconds(child) for child in site.cluster.children()}
+        busy = until(
+            lambda: next(
+                (
+                    child
+                    for child in site.cluster.children()
+                    if cpu_seconds(child) - spent.get(child.pid, 0.0) > 0.2
+                ),
+                None,
+            )
+        )
+        began = time.monotonic()
+        client.delete(job)
+        until(lambda: gone(busy))
+        assert time.monotonic() - began < 1.0
+
+
+def test_jobs_end_once_whatever_is_killed(site: Site) -> None:
+    query = "format=png&quality=final&width=160&height=120&samples=64"
+    with site.service.client() as client:
+        jobs = [start(client, query, program(f"among the dying {n}")) for n in range(4)]
+        jobs += [start(client, query, program("among the dying 0"))]
+        at_work(client, jobs[0])
+        site.cluster.kill_worker(0)
+        site.cluster.kill_worker(1)
+        at_work(client, jobs[1], 0.1)
+        site.cluster.kill_scheduler()
+        until(lambda: "cluster lost a work" in site.service.log.read_text())
+        site.postgres.kill()
+        assert client.get("/healthz").status_code == 200
+        refused = client.get(jobs[0])
+        assert refused.status_code == 503
+        assert refused.json()["type"] == "urn:tubeloom:problem:store-unavailable"
+        site.postgres.start()
+        found = [over(client, job) for job in jobs]
+        assert [each["state"] for each in found] == ["done"] * len(jobs), found
+        made = [client.get(f"{job}/result").content for job in jobs]
+        assert made[0] == made[-1]
+    assert site.service.process.poll() is None
+
+
+def test_a_service_whose_cluster_is_not_there_lives_and_says_so(tmp_path: Path) -> None:
+    nowhere = running_service(
+        tmp_path, workers=1, dask_scheduler="tcp://127.0.0.1:9", job_deadline_seconds=2
+    )
+    with nowhere as service, service.client() as client:
+        assert client.post("/v1/render?format=glb", json=program("here")).status_code == 200
+        found = over(client, start(client, "format=glb", program("nowhere")))
+        assert found["problem"]["type"] == "urn:tubeloom:problem:deadline-exceeded"
