@@ -132,9 +132,15 @@ def _hues(program: Program, previous: Layout | None) -> Indices:
 
 
 def _previous(program: Program, previous: Layout) -> Previous | None:
-    if previous.program.layout != program.layout:
+    if _wishes(previous.program) != _wishes(program):
         return None
     return Previous(previous.placement, previous.routing, _numbers(program, previous.program))
+
+
+def _wishes(program: Program) -> tuple[object, ...]:
+    """What curves depend on, beside the places of items and hyperedges' own wishes."""
+    wishes = program.layout
+    return (wishes.dimensions, wishes.curves, wishes.fidelity, wishes.closest, wishes.clearance)
 
 
 def _numbers(program: Program, previous: Program) -> Indices:

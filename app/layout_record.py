@@ -6,6 +6,9 @@ What can be computed again from the program (solids, labels, attachments) is not
 from __future__ import annotations
 
 import io
+import zlib
+from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -42,12 +45,22 @@ def write_layout(layout: Layout) -> bytes:
 
 
 def read_layout(program: Program, data: bytes) -> Layout | None:
-    """The layout that was written, or ``None`` where another version wrote it."""
-    with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
-        if arrays["form"] != FORM:
-            return None
+    """The layout that was written, or ``None`` where another version wrote it, or it is broken."""
+    try:
+        arrays = _arrays(data)
         standing = Standing(program, *(arrays[name] for name in PLACES))
         routing = Routing(**{name: arrays[f"routing_{name}"] for name in CURVES})
-        hues = arrays["hues"]
+        hues, form = arrays["hues"], arrays["form"]
+    except (KeyError, ValueError, OSError, EOFError, BadZipFile, zlib.error):
+        return None
+    counts = (len(standing.centers), len(hues), len(routing.radii))
+    items, hyperedges = len(program.items), len(program.hyperedges)
+    if form != FORM or counts != (items, hyperedges, hyperedges):
+        return None
     placement = place(program, load_notation(program.notation), standing)
     return Layout(program, shown(program, placement), routing, hues)
+
+
+def _arrays(data: bytes) -> dict[str, np.ndarray[Any, Any]]:
+    with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
+        return dict(arrays)

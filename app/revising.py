@@ -66,8 +66,11 @@ def _layout_of(program: Program, layout: bytes | None) -> Layout:
 
 def _restored(previous: Layout | None, change: Restoration, settings: Settings) -> Revised:
     program = read_program(change.document, settings)
-    laid = _layout_of(program, change.layout)
-    return _revised(previous, laid, change.document, change.layout)
+    kept = read_layout(program, change.layout)
+    if kept is None:
+        laid = lay_out(program)
+        return _revised(previous, laid, change.document, write_layout(laid))
+    return _revised(previous, kept, change.document, change.layout)
 
 
 def _revised(previous: Layout | None, laid: Layout, document: bytes, layout: bytes) -> Revised:
@@ -113,8 +116,9 @@ def _changed(before: Program | None, document: bytes, change: Change, settings: 
 
 
 def _frame(program: Program) -> Program:
-    """All of a program but its items and hyperedges."""
-    return program.model_copy(update={"items": (), "hyperedges": ()})
+    """All of a program but its items and hyperedges, and what tells only where these stand."""
+    layout = program.layout.model_copy(update={"constraints": ()})
+    return program.model_copy(update={"items": (), "hyperedges": (), "layout": layout})
 
 
 def _items(layout: Layout) -> Mapping[str, object]:

@@ -11,7 +11,7 @@ from app.hyperedges.curves import join_starts, lay_out, segment_starts
 from app.hyperedges.join_planes import choose_join_planes
 from app.hyperedges.routing import Routing
 from app.hyperedges.weaving.weave import Progress
-from app.hyperedges.woven import Previous, lay_all, weave_all
+from app.hyperedges.woven import Previous, known_planes, lay_all, weave_all
 from app.placement.placement import Placement
 
 
@@ -36,7 +36,8 @@ def route(
 
     Of the paper's curves, ``fidelity`` says whether exactly they are wanted ("paper") or ones that
     leave their items squarely ("best"); ``closest`` whether CLOSEST measures in three dimensions or
-    as seen from above. They get join planes with ``clearance`` in mind, but nobody moves them.
+    as seen from above. They get join planes with ``clearance`` in mind, but nobody moves them;
+    those of a ``previous`` layout keep their planes.
 
     ``join_heights`` (h,) are join planes, NaN where they are to be chosen. ``progress`` is told
     shares of the work. Raises `ValueError` where a hyperedge has fewer than two attachments.
@@ -44,6 +45,8 @@ def route(
     starts = placement.attachment_starts
     if join_heights is None:
         join_heights = np.full(len(starts) - 1, np.nan)
+    if previous is not None and (curves != "steiner" or clearance is None):
+        join_heights = known_planes(placement, join_heights, previous)
     if curves == "steiner":
         if clearance is None:
             return lay_all(placement, join_heights)

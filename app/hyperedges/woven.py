@@ -18,7 +18,7 @@ from app.hyperedges.weaving.loose import lay_loosely
 from app.hyperedges.weaving.numbering import number
 from app.hyperedges.weaving.plan import feet_of
 from app.hyperedges.weaving.threads import Still, Surroundings, Threads
-from app.hyperedges.weaving.weave import Progress, weave
+from app.hyperedges.weaving.weave import Progress, Weave, weave
 from app.placement.placement import Placement
 
 ARCH = 1.5
@@ -31,7 +31,7 @@ LEAST_RISE = 4.0
 """Least height in radii: a bend and its way back."""
 
 HITS = 3
-"""How often hyperedges that an edit hits are woven anew with it, before all are."""
+"""How often hyperedges that an edit hits are woven anew with it, before all are, if that helps."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,34 +60,83 @@ def weave_all(
     are in the way of what is new.
     """
     surroundings = Surroundings(obstacles_of(placement), attached_items(placement))
-    hyperedges = len(placement.radii)
-    kept = np.zeros(hyperedges, dtype=np.bool_)
+    kept = np.zeros(len(placement.radii), dtype=np.bool_)
     if previous is not None:
-        kept = _unmoved(placement, join_heights, previous)
+        kept = unmoved(placement, join_heights, previous)
         new = Surroundings(_new(surroundings.obstacles, previous.placement), surroundings.attached)
         kept &= ~_too_near(kept, placement, previous, new, clearance)
+    best: tuple[Weave, Floats, NDArray[np.bool_]] | None = None
     for attempt in range(HITS + 1):
         if attempt == HITS:
-            kept[:] = False
-        chosen, standing = np.flatnonzero(~kept), np.flatnonzero(kept)
-        old = _standing(previous, standing)
-        threads = _threads(placement, clearance, join_heights, chosen)
-        still = Still.nothing() if old is None else _still(placement, standing, old)
-        renumbered = np.empty(hyperedges, dtype=np.int64)
-        renumbered[np.concatenate([chosen, standing])] = np.arange(hyperedges)
-        attached = surroundings.attached.copy()
-        attached[:, 0] = renumbered[attached[:, 0]]
-        attached = attached[np.lexsort((attached[:, 1], attached[:, 0]))]
-        woven = weave(
-            threads, still, Surroundings(surroundings.obstacles, attached), clearance, progress
+            kept = np.zeros_like(kept)
+        woven, radii = _weave_beside(
+            kept, placement, clearance, join_heights, surroundings, previous, progress
         )
-        if not woven.hit.any():
+        # Where all are woven anew, it must be worth it.
+        if best is None or woven.faults < best[0].faults or attempt < HITS:
+            best = woven, radii, kept
+        hit = np.flatnonzero(kept)[woven.hit]
+        hit = hit[~_meet(placement, hit, kept)]
+        if len(hit) == 0:
             break
-        kept[standing[woven.hit]] = False
-    made = number(woven.plan, woven.fabric, woven.leaving, woven.planes, threads.radii)
+        kept = kept.copy()
+        kept[hit] = False
+    assert best is not None, "there is one attempt at least"  # noqa: S101
+    woven, radii, kept = best
+    made = number(woven.plan, woven.fabric, woven.leaving, woven.planes, radii)
+    old = _standing(previous, np.flatnonzero(kept))
     if old is None:
         return made
-    return merge(made, old, np.concatenate([chosen, standing]))
+    return merge(made, old, np.concatenate([np.flatnonzero(~kept), np.flatnonzero(kept)]))
+
+
+def _weave_beside(
+    kept: NDArray[np.bool_],
+    placement: Placement,
+    clearance: float,
+    join_heights: Floats,
+    surroundings: Surroundings,
+    previous: Previous | None,
+    progress: Progress,
+) -> tuple[Weave, Floats]:
+    """Curves of the hyperedges that are not ``kept`` (h,), and their radii."""
+    chosen, standing = np.flatnonzero(~kept), np.flatnonzero(kept)
+    old = _standing(previous, standing)
+    threads = _threads(placement, clearance, join_heights, chosen)
+    still = Still.nothing() if old is None else _still(placement, standing, old)
+    renumbered = np.empty(len(kept), dtype=np.int64)
+    renumbered[np.concatenate([chosen, standing])] = np.arange(len(kept))
+    attached = surroundings.attached.copy()
+    attached[:, 0] = renumbered[attached[:, 0]]
+    attached = attached[np.lexsort((attached[:, 1], attached[:, 0]))]
+    around = Surroundings(surroundings.obstacles, attached)
+    return weave(threads, still, around, clearance, progress), threads.radii
+
+
+def _meet(placement: Placement, hit: Indices, kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which of the hyperedges ``hit`` (m,) end where one does that is not ``kept`` (h,).
+
+    They touch there however they run: to weave them anew would move them for nothing.
+    """
+    starts = placement.attachment_starts
+    places = np.ascontiguousarray(placement.attachment_positions).view("V24").ravel()
+    rows = rows_of(starts, hit)
+    shared = np.isin(places[rows], places[rows_of(starts, np.flatnonzero(~kept))])
+    counts = np.diff(starts)[hit]
+    found = np.zeros(len(hit), dtype=np.bool_)
+    found[np.repeat(np.arange(len(hit)), counts)[shared]] = True
+    return found
+
+
+def known_planes(placement: Placement, join_heights: Floats, previous: Previous) -> Floats:
+    """Join planes (h,) as ``join_heights`` wish, and else those of before for what has not moved.
+
+    NaN where one is to be chosen.
+    """
+    same = unmoved(placement, join_heights, previous) & np.isnan(join_heights)
+    planes = join_heights.copy()
+    planes[same] = previous.routing.join_planes[previous.numbers[same]]
+    return planes
 
 
 def lay_all(placement: Placement, join_heights: Floats) -> Routing:
@@ -119,7 +168,7 @@ def _threads(
     return Threads(positions, placement.attachment_directions[rows], begins, radii, lows, given)
 
 
-def _unmoved(placement: Placement, join_heights: Floats, previous: Previous) -> NDArray[np.bool_]:
+def unmoved(placement: Placement, join_heights: Floats, previous: Previous) -> NDArray[np.bool_]:
     """Which hyperedges (h,) attach where they did, with tubes as thick."""
     old = previous.placement
     same = previous.numbers >= 0
@@ -195,7 +244,10 @@ def _too_near(
     surroundings: Surroundings,
     clearance: float,
 ) -> NDArray[np.bool_]:
-    """Which of the hyperedges that are kept are too near to new items, or to each other, (h,)."""
+    """Which of the hyperedges that are kept are too near to new items, (h,).
+
+    Those that are too near to each other were so before, when nothing better was found.
+    """
     found = np.zeros(len(kept), dtype=np.bool_)
     standing = np.flatnonzero(kept)
     old = _standing(previous, standing)
@@ -211,5 +263,4 @@ def _too_near(
         np.ones(len(owners), dtype=np.bool_),
     )
     found[owners[faults.at_items]] = True
-    found[owners[faults.pairs]] = True
     return found

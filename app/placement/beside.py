@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.arrays import Flags, Floats
+from app.placement.rooms import ENDLESS, TOUCHING
 from app.placement.rows import ASPECT, THIN, Arrangement
 from app.placement.sized import Place
 
@@ -12,51 +13,95 @@ MOST = 200
 """Neighbours beside which room is sought, the last ones; where there are more, it is also sought
 at the edges of all."""
 
-TOUCHING = 1e-9
-"""What rounding leaves between rectangles that touch."""
 
-
-def beside(taken: Floats, size: Place, gap: float, arrangement: Arrangement) -> Place:
+def beside(
+    taken: Floats,
+    size: Place,
+    gap: float,
+    arrangement: Arrangement,
+    room: Floats = ENDLESS,
+    near: Place | None = None,
+) -> Place:
     """Centre of a free place for a rectangle of ``size`` (width, depth).
 
     ``taken`` (k, 4), at least one, are left, near, right and far edges of rectangles from which it
     keeps a ``gap``. Of the places to the right of each and before each, it is the one that makes
-    the smallest and best proportioned whole; in a row or a column, the one behind the last.
+    the smallest and best proportioned whole, or is the nearest to where it stood, ``near``; in a
+    row or a column, the one behind the last. If it can, it stays within ``room`` (4,), to the left
+    of others or behind them if need be.
 
     >>> beside(np.array([[0.0, 0.0, 1.0, 1.0]]), (1.0, 1.0), 0.5, "row")
     (2.0, 0.5)
     """
     width, depth = size
-    left, near = taken[:, :2].min(axis=0)
+    left, low = taken[:, :2].min(axis=0)
     right, far = taken[:, 2:].max(axis=0)
     if arrangement == "row":
         last = taken[np.argmax(taken[:, 2])]
         return float(right + gap + width / 2), float((last[1] + last[3]) / 2)
     if arrangement == "column":
         last = taken[np.argmin(taken[:, 1])]
-        return float((last[0] + last[2]) / 2), float(near - gap - depth / 2)
+        return float((last[0] + last[2]) / 2), float(low - gap - depth / 2)
     close = taken[-MOST:]
-    corners = np.concatenate(
+    whole = np.array([left, low, right, far])
+    usual = np.concatenate(
         [
             np.column_stack([close[:, 2] + gap, close[:, 3]]),
             np.column_stack([close[:, 0], close[:, 1] - gap]),
-            [[right + gap, far], [left, near - gap]],
+            [[right + gap, far], [left, low - gap]],
         ]
     )
-    far_corners = corners + np.array([width, -depth])
-    places = np.column_stack([corners, far_corners])[:, [0, 3, 2, 1]]
-    places = places[~_overlap(places, taken, gap)]
-    wide = np.maximum(places[:, 2], right) - np.minimum(places[:, 0], left)
-    deep = np.maximum(places[:, 3], far) - np.minimum(places[:, 1], near)
-    aspect = np.maximum(wide, THIN) / np.maximum(deep, THIN)
-    cost = (wide + gap) * (deep + gap) * np.maximum(aspect / ASPECT, ASPECT / aspect) ** 0.7
-    best = places[np.argmin(np.round(cost, 9))]
-    return float((best[0] + best[2]) / 2), float((best[1] + best[3]) / 2)
+    other = np.concatenate(
+        [
+            np.column_stack([close[:, 0] - gap - width, close[:, 3]]),
+            np.column_stack([close[:, 0], close[:, 3] + gap + depth]),
+            [[left - gap - width, far], [left, far + gap + depth]],
+        ]
+    )
+    for corners in (usual, other) if near is None else (np.concatenate([usual, other]),):
+        places = _from_corners(corners, size)
+        places = places[~_overlap(places, taken, gap)]
+        places = places[_fit(places, room)]
+        if len(places):
+            return _best(places, whole, gap, near)
+    places = _from_corners(usual, size)
+    return _best(places[~_overlap(places, taken, gap)], whole, gap, near)
 
 
-def overlaps(rectangle: Floats, others: Floats) -> bool:
-    """Whether ``rectangle`` (4,) overlaps any of ``others`` (k, 4)."""
-    return bool(_overlap(rectangle[None], others, 0.0)[0])
+def overlaps(rectangle: Floats, others: Floats, gap: float = 0.0) -> bool:
+    """Whether ``rectangle`` (4,) is nearer than ``gap`` to any of ``others`` (k, 4)."""
+    return bool(_overlap(rectangle[None], others, gap)[0])
+
+
+def fits(rectangle: Floats, room: Floats) -> bool:
+    """Whether ``rectangle`` (4,) lies within ``room`` (4,)."""
+    return bool(_fit(rectangle[None], room)[0])
+
+
+def _from_corners(corners: Floats, size: Place) -> Floats:
+    """Rectangles (m, 4) of one size by their left far corners (m, 2)."""
+    left, far = corners[:, 0], corners[:, 1]
+    return np.column_stack([left, far - size[1], left + size[0], far])
+
+
+def _best(places: Floats, whole: Floats, gap: float, near: Place | None) -> Place:
+    wide = np.maximum(places[:, 2], whole[2]) - np.minimum(places[:, 0], whole[0])
+    deep = np.maximum(places[:, 3], whole[3]) - np.minimum(places[:, 1], whole[1])
+    centers = (places[:, :2] + places[:, 2:]) / 2
+    if near is None:
+        aspect = np.maximum(wide, THIN) / np.maximum(deep, THIN)
+        cost = (wide + gap) * (deep + gap) * np.maximum(aspect / ASPECT, ASPECT / aspect) ** 0.7
+    else:
+        # A new place far away is as bad as a whole that is so much wider or deeper.
+        cost = np.hypot(*(centers - near).T) + wide + deep
+    x, y = centers[np.argmin(np.round(cost, 9))]
+    return float(x), float(y)
+
+
+def _fit(places: Floats, room: Floats) -> Flags:
+    """Which of ``places`` (m, 4) lie within ``room`` (4,)."""
+    low = (places[:, :2] >= room[:2] - TOUCHING).all(axis=1)
+    return np.asarray(low & (places[:, 2:] <= room[2:] + TOUCHING).all(axis=1))
 
 
 def _overlap(places: Floats, taken: Floats, gap: float) -> Flags:

@@ -3,54 +3,27 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+
+import numpy as np
 
 from app.notations.notation import ItemStyle
+from app.placement.enclosing import Contents, enclose, grow
 from app.placement.family import Family
-from app.placement.fitting import fit, shape_of
 from app.placement.helix import Bulk, leaning, wind
-from app.placement.labels import strip
+from app.placement.rooms import Rooms, edge_of_fixed
 from app.placement.rows import Arrangement, arrange
 from app.placement.sized import Place, Sized, alone
-from app.placement.standing import Standing, recall
-from app.placement.still import Block, hold, shift, stand, stays
+from app.placement.standing import ALIKE, Standing, recall
+from app.placement.still import Block, Ground, Groups, hold, stand, stays
 from app.placement.turning import UNTURNED, then
 from app.program.model import Helix, LineUp, Program
-from app.solids.extents import size_of
 from app.solids.solid import Box, Tray
-
-CAPTION_GAP = 0.1
-"""Between a tray's contents and the label before them."""
-
-SIDE_CAPTION_GAP = 0.16
-"""Between a tray's contents and the label to their left: seen from the usual view, a little to the
-right, a block hides a fifth of its height of what lies on its left, some 0.12."""
 
 ROOT_GAP = 0.6
 
-ALIKE = 1.7
-"""Blocks of one kind in one parent get one width where the widest is at most so many times as wide
-as the narrowest."""
-
 DEEPER = 1.4
 """How far a tray is stretched at most, to be as deep as its neighbours."""
-
-Groups = Sequence[tuple[LineUp | Helix, list[int]]]
-"""What stands together, with its members in order."""
-
-
-@dataclass(frozen=True, slots=True)
-class Contents:
-    """Children arranged about a point: places of the free ones, and the box around all."""
-
-    places: dict[int, Place]
-    low: Place
-    high: Place
-    fixed: bool
-    """Whether some have positions, so that nothing may be shifted."""
-    still: bool = False
-    """Whether some stand where they stood before an edit."""
 
 
 def measure(
@@ -69,18 +42,26 @@ def measure(
     sized = alone(program, family, styles)
     if standing is not None:
         recall(sized, program, family, standing)
+    rooms = Rooms(sized, family, [*(style.gap for style in styles), ROOT_GAP])
     for number in reversed(family.order):
         children = family.children[number]
         if children:
             style = styles[number]
-            contents = contain(
-                sized, children, line_ups.get(number, []), style.gap, style.arrangement
-            )
-            if contents.still:
-                _grow(sized, number, children, contents)
+            lines = line_ups.get(number, [])
+            if stays(sized, number, children):
+                contents = _contain_more(
+                    sized, number, children, lines, style.gap, style.arrangement, rooms
+                )
+                grow(sized, number, children, contents)
             else:
-                _enclose(sized[number], contents)
-    roots = contain(sized, family.roots, line_ups.get(-1, []), ROOT_GAP, "rows")
+                enclose(
+                    sized[number], contain(sized, children, lines, style.gap, style.arrangement)
+                )
+    lines = line_ups.get(-1, [])
+    if stays(sized, -1, family.roots):
+        roots = _contain_more(sized, -1, family.roots, lines, ROOT_GAP, "rows", rooms)
+    else:
+        roots = contain(sized, family.roots, lines, ROOT_GAP, "rows")
     return sized, roots.places
 
 
@@ -91,24 +72,23 @@ def contain(
     gap: float,
     arrangement: Arrangement,
 ) -> Contents:
-    """Arrange the free ones of ``children``; those with positions stay, and what stood."""
-    if stays(sized, children):
-        return _contain_more(sized, children, line_ups, gap, arrangement)
+    """Arrange the free ones of ``children``; those with positions stay."""
     free = [child for child in children if sized[child].is_free]
     _make_alike([sized[child] for child in free])
     places, width, depth = _arrange_free(sized, free, line_ups, gap, arrangement)
     fixed = [sized[child] for child in children if not sized[child].is_free]
+    around = np.array([-width / 2, -depth / 2, width / 2, depth / 2])
     if not fixed:
-        return Contents(places, (-width / 2, -depth / 2), (width / 2, depth / 2), fixed=False)
-    low, high = _bounds(fixed)
+        return Contents(places, around, fixed=False)
+    edges = np.array([edge_of_fixed(each) for each in fixed])
+    left, near = edges[:, :2].min(axis=0)
+    right, far = edges[:, 2:].max(axis=0)
     if free:
         # The free ones stand before the box of those with positions.
-        x = (low[0] + high[0]) / 2
-        y = low[1] - gap - depth / 2
+        x, y = float(left + right) / 2, float(near) - gap - depth / 2
         places = {child: (x + place[0], y + place[1]) for child, place in places.items()}
-        low = (min(low[0], x - width / 2), y - depth / 2)
-        high = (max(high[0], x + width / 2), high[1])
-    return Contents(places, low, high, fixed=True)
+        left, near, right = min(left, x - width / 2), y - depth / 2, max(right, x + width / 2)
+    return Contents(places, np.array([left, near, right, far]), fixed=True)
 
 
 def _arrange_free(
@@ -134,29 +114,43 @@ def _arrange_free(
 
 def _contain_more(
     sized: Sequence[Sized],
+    number: int,
     children: Sequence[int],
     line_ups: Groups,
     gap: float,
     arrangement: Arrangement,
+    rooms: Rooms,
 ) -> Contents:
     """Find room for those of ``children`` that are new, beside what stands."""
-    standing = hold(sized, children)
-    free = [child for child in children if child not in standing]
-    _make_alike(
-        [sized[child] for child in free], [sized[child] for child in children if child in standing]
-    )
-    blocks = _blocks(sized, free, line_ups, gap)
-    found, (left, near, right, far) = stand(standing, blocks, gap, arrangement)
+    fixed = any(not sized[child].is_free for child in children)
     places: dict[int, Place] = {}
-    for child, (x, y) in found.items():
-        aside = sized[child].footprint.center
-        places[child] = (x + aside[0], y + aside[1])
-    for child in standing:
+    around = None
+    kept: Iterable[int] = children
+    if fixed or not _is_settled(sized, number, children):
+        ground = Ground(rooms.within(number), gap, arrangement, line_ups)
+        standing, near = hold(sized, children, ground)
+        free = [child for child in children if child not in standing]
+        _make_alike([sized[child] for child in free], [sized[child] for child in standing])
+        blocks = _blocks(sized, free, line_ups, gap)
+        found, around = stand(standing, near, blocks, ground)
+        for child, (x, y) in found.items():
+            aside = sized[child].footprint.center
+            places[child] = (x + aside[0], y + aside[1])
+        kept = standing
+    for child in kept:
         stood = sized[child].stood
         if sized[child].is_free and stood is not None:
             places[child] = stood.offset[:2]
-    fixed = any(not sized[child].is_free for child in children)
-    return Contents(places, (left, near), (right, far), fixed, still=True)
+    return Contents(places, around, fixed)
+
+
+def _is_settled(sized: Sequence[Sized], number: int, children: Sequence[int]) -> bool:
+    """Whether children stand as they stood, in a parent that is as it was, with its label."""
+    if number >= 0:
+        stood = sized[number].stood
+        if stood is None or not (stood.alike and stood.labelled):
+            return False
+    return all(sized[child].is_as_before for child in children)
 
 
 def _blocks(
@@ -199,9 +193,8 @@ def _wind(members: Sequence[Sized], helix: Helix, gap: float) -> tuple[float, li
 def _deepen(child: Sized, depth: float) -> None:
     """Trays of nearly one depth in one row end at one line; contents stay in their middle."""
     stretches = isinstance(child.solid, Tray) and not child.has_own_size and child.turn == UNTURNED
-    if isinstance(child.solid, Tray) and stretches and depth <= DEEPER * child.size[1]:
-        size = (child.size[0], max(depth, child.size[1]), child.size[2])
-        child.solid, child.size = replace(child.solid, size=size), size
+    if stretches and depth <= DEEPER * child.size[1]:
+        child.resize((child.size[0], max(depth, child.size[1]), child.size[2]))
 
 
 def _make_alike(siblings: Sequence[Sized], standing: Sequence[Sized] = ()) -> None:
@@ -219,99 +212,8 @@ def _make_alike(siblings: Sequence[Sized], standing: Sequence[Sized] = ()) -> No
         widest = max(widths) if max(widths) <= ALIKE * min(widths) else 0.0
         tallest = max(sibling.size[2] for sibling in group)
         for sibling in group:
-            if id(sibling) in remaining:
-                continue
-            size = (max(sibling.size[0], widest), sibling.size[1], tallest)
-            if isinstance(sibling.solid, Box):
-                sibling.solid, sibling.size = replace(sibling.solid, size=size), size
-
-
-def _bounds(items: Sequence[Sized]) -> tuple[Place, Place]:
-    lows: list[Place] = []
-    highs: list[Place] = []
-    for sized in items:
-        x, y, _ = sized.item.position or (0.0, 0.0, 0.0)
-        taken, middle = sized.footprint, sized.middle
-        x, y = x + middle[0] - taken.center[0], y + middle[1] - taken.center[1]
-        width, depth = taken.size
-        lows.append((x - width / 2, y - depth / 2))
-        highs.append((x + width / 2, y + depth / 2))
-    return (
-        (min(low[0] for low in lows), min(low[1] for low in lows)),
-        (max(high[0] for high in highs), max(high[1] for high in highs)),
-    )
-
-
-def _enclose(parent: Sized, contents: Contents) -> None:
-    """Give ``parent`` its size around ``contents``, and its free children their places."""
-    beside, before = _caption(parent)
-    (left, near), (right, far) = contents.low, contents.high
-    if contents.fixed:
-        # Positions are relative to the parent's centre, which therefore cannot move.
-        width = 2 * max(right, beside - left)
-        depth = 2 * max(far, before - near)
-        parent.children = contents.places
-    else:
-        width, depth = right - left + beside, far - near + before
-        parent.children = {
-            child: (x + beside / 2, y + before / 2) for child, (x, y) in contents.places.items()
-        }
-    margin = 2 * parent.style.padding
-    _fit(parent, width + margin, depth + margin)
-
-
-def _grow(sized: Sequence[Sized], number: int, children: Sequence[int], contents: Contents) -> None:
-    """Let a parent reach around ``contents`` too, and move nothing that stands in it."""
-    parent = sized[number]
-    parent.children = contents.places
-    new = any(sized[child].grew or not _is_as_before(sized[child]) for child in children)
-    if parent.stood is not None and parent.stood.alike and not new:
-        return
-    beside, before = _caption(parent)
-    padding = parent.style.padding
-    (left, near), (right, far) = contents.low, contents.high
-    left, near = left - beside - padding, near - before - padding
-    right, far = right + padding, far + padding
-    if parent.stood is not None and parent.stood.alike:
-        wall = parent.solid.wall if isinstance(parent.solid, Tray) else 0.0
-        width, depth = parent.size[0] / 2 - wall, parent.size[1] / 2 - wall
-        left, near = min(left, -width), min(near, -depth)
-        right, far = max(right, width), max(far, depth)
-    size = parent.size
-    if contents.fixed or not parent.is_kept:
-        _fit(parent, 2 * max(right, -left), 2 * max(far, -near))
-    else:
-        _fit(parent, right - left, far - near)
-        if not parent.has_own_size:
-            shift(sized, parent, children, ((left + right) / 2, (near + far) / 2))
-    parent.grew = parent.size != size
-
-
-def _is_as_before(child: Sized) -> bool:
-    return child.stood is not None and child.stood.alike
-
-
-def _caption(parent: Sized) -> Place:
-    """Room that a tray's label takes: to the left of its contents, and before them."""
-    if not isinstance(parent.solid, Tray) or parent.label is None:
-        return 0.0, 0.0
-    if parent.style.caption == "left":
-        return parent.label.width + SIDE_CAPTION_GAP, 0.0
-    return 0.0, strip(parent.label) + CAPTION_GAP
-
-
-def _fit(parent: Sized, width: float, depth: float) -> None:
-    """Give ``parent`` its size: so much within its walls, and its label's."""
-    style = parent.style
-    if isinstance(parent.solid, Tray) and parent.label is not None:
-        margin = 2 * style.padding
-        if style.caption == "front":
-            width = max(width, parent.label.width + margin)
-        if style.caption == "left":
-            depth = max(depth, strip(parent.label) + margin)
-    shape = shape_of(parent.item, style, has_children=True)
-    parent.solid = fit(shape, parent.item, style, parent.label, (width, depth))
-    parent.size = size_of(parent.solid)
+            if id(sibling) not in remaining:
+                sibling.resize((max(sibling.size[0], widest), sibling.size[1], tallest))
 
 
 def _line_ups(

@@ -65,13 +65,12 @@ def fit(
     """
     match shape:
         case shapes.Box(size=size):
-            size = size or _block(style, label, contents)
-            return Box(size, min(EDGE, 0.2 * min(size)))
+            return _box(size or _block(style, label, contents))
         case shapes.Tray(size=size, wall=wall):
-            wall = wall or WALL
             if size is None:
-                size = (contents[0] + 2 * wall, contents[1] + 2 * wall, FLOOR + RIM)
-            return Tray(size, min(wall, 0.4 * min(size[:2])), min(FLOOR, 0.5 * size[2]))
+                room = 2 * (wall or WALL)
+                size = (contents[0] + room, contents[1] + room, FLOOR + RIM)
+            return _tray(size, wall)
         case shapes.Sphere(radius=radius):
             return Sphere(radius or 0.35)
         case shapes.Cylinder(radius=radius, height=height):
@@ -89,6 +88,25 @@ def fit(
             return Text(item.label or "", height or 1.5 * style.label_height, depth or 0.15)
         case _:
             assert_never(shape)
+
+
+def resized(shape: shapes.Shape, solid: Solid, size: Size) -> Solid:
+    """The block or the tray for ``shape`` with another ``size``; other solids as they are."""
+    match solid, shape:
+        case Box(), _:
+            return _box(size)
+        case Tray(), shapes.Tray(wall=wall):
+            return _tray(size, wall)
+        case _:
+            return solid
+
+
+def _box(size: Size) -> Box:
+    return Box(size, min(EDGE, 0.2 * min(size)))
+
+
+def _tray(size: Size, wall: float | None) -> Tray:
+    return Tray(size, min(wall or WALL, 0.4 * min(size[:2])), min(FLOOR, 0.5 * size[2]))
 
 
 def _block(style: ItemStyle, label: TextExtent | None, contents: tuple[float, float]) -> Size:

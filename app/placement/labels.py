@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from app.placement.fitting import LABEL_DEPTH
 from app.placement.placement import LabelPlace
 from app.placement.turning import UNTURNED, UPRIGHT
@@ -10,6 +12,25 @@ from app.solids.solid import Box, Size, Solid, Text, Tray
 
 BEFORE = 0.06
 """Between a round solid and the label that stands before it."""
+
+
+CAPTION_GAP = 0.1
+"""Between a tray's contents and the label before them."""
+
+SIDE_CAPTION_GAP = 0.16
+"""Between a tray's contents and the label to their left: seen from the usual view, a little to the
+right, a block hides a fifth of its height of what lies on its left, some 0.12."""
+
+
+def caption(
+    solid: Solid, label: TextExtent | None, side: Literal["front", "left"]
+) -> tuple[float, float]:
+    """Room that a tray's label takes: to the left of its contents, and before them."""
+    if not isinstance(solid, Tray) or label is None:
+        return 0.0, 0.0
+    if side == "left":
+        return label.width + SIDE_CAPTION_GAP, 0.0
+    return 0.0, strip(label) + CAPTION_GAP
 
 
 def strip(label: TextExtent | None) -> float:

@@ -13,9 +13,10 @@ from app.placement.family import Family, family
 from app.placement.labels import label_place
 from app.placement.placement import LabelPlace, Placement
 from app.placement.points import points_of
+from app.placement.rooms import TOUCHING
 from app.placement.sized import Place, Sized
 from app.placement.standing import Standing
-from app.placement.turning import UNTURNED, Quaternion, Vector, reach, then, turned
+from app.placement.turning import UNTURNED, Quaternion, Vector, moved, reach, then, turned
 from app.program.model import Program
 from app.solids.extents import middle_of
 from app.solids.solid import Tray
@@ -68,28 +69,21 @@ def _in_world(
         each = sized[number]
         parent = relations.parents[number]
         stood = each.stood
-        if each.is_free and stood is not None and stood.alike and (parent < 0 or still[parent]):
-            # As it stood, and not computed again, which could differ in the last bit.
-            offsets[number], centers[number] = stood.offset, stood.center
-            turns[number], still[number] = stood.rotation, True
+        offset = offsets[number] = _offset(sized, number, parent, roots)
+        if (
+            stood is not None
+            and stood.center is not None
+            and each.is_as_it_stood(offset)
+            and (parent < 0 or still[parent])
+        ):
+            # Not computed again, which could differ in the last bit.
+            centers[number], turns[number], still[number] = stood.center, stood.rotation, True
             continue
-        rise = reach(each.turn, each.size)[2] / 2 if each.lift is None else each.lift
-        offset = each.item.position
-        if offset is not None:
-            x, y, z = each.middle
-            offset = (offset[0] + x, offset[1] + y, offset[2] + z)
-        elif stood is not None and stood.alike:
-            offset = stood.offset
-        elif parent < 0:
-            offset = (*roots[number], rise)
-        else:
-            offset = (*sized[parent].children[number], _ground(sized[parent]) + rise)
-        offsets[number] = offset
         if parent < 0:
             turns[number], centers[number] = each.turn, offset
         else:
             turns[number] = then(turns[parent], each.turn)
-            centers[number] = _within(sized[parent], centers[parent], turns[parent], offset)
+            centers[number] = _in_parent(sized[parent], centers[parent], turns[parent], offset)
         still[number] = stood is not None and (centers[number], turns[number]) == (
             stood.center,
             stood.rotation,
@@ -97,7 +91,26 @@ def _in_world(
     return centers, turns, offsets
 
 
-def _within(parent: Sized, center: Vector, turn: Quaternion, offset: Vector) -> Vector:
+def _offset(sized: Sequence[Sized], number: int, parent: int, roots: dict[int, Place]) -> Vector:
+    """Where an item's solid has its centre, seen from its parent's origin."""
+    each = sized[number]
+    if each.item.position is not None:
+        return moved(each.item.position, each.middle)
+    rise = reach(each.turn, each.size)[2] / 2 if each.lift is None else each.lift
+    stood = each.stood
+    if stood is None or not stood.alike:
+        x, y = roots[number] if parent < 0 else sized[parent].children[number]
+    elif parent < 0 or sized[parent].is_alike:
+        return stood.offset
+    else:
+        x, y, _ = stood.offset
+    height = rise if parent < 0 else _ground(sized[parent]) + rise
+    if stood is not None and abs(height - stood.offset[2]) <= TOUCHING:
+        height = stood.offset[2]
+    return (x, y, height)
+
+
+def _in_parent(parent: Sized, center: Vector, turn: Quaternion, offset: Vector) -> Vector:
     """Where in the world ``offset`` from the parent's origin is."""
     x, y, z = middle_of(parent.solid)
     moved = turned(turn, (offset[0] - x, offset[1] - y, offset[2] - z))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from app.errors import DocumentTooLarge, Fault, InconsistentDocument, pointer
 from app.notations.notation import ItemStyle
 from app.placement.family import Family
-from app.placement.fitting import fit, shape_of, written_extent
+from app.placement.fitting import fit, resized, shape_of, written_extent
 from app.placement.labels import front, strip
 from app.placement.turning import UNTURNED, Quaternion, Vector, from_degrees, reach, turned
 from app.program import shapes
@@ -16,7 +16,7 @@ from app.program.faults import first
 from app.program.model import Item, Program
 from app.solids.extents import middle_of, size_of
 from app.solids.lettering import TextExtent
-from app.solids.solid import Size, Solid
+from app.solids.solid import Box, Size, Solid, Tray
 
 Place = tuple[float, float]
 
@@ -34,20 +34,24 @@ class Stood:
     """Where an item stood before an edit.
 
     ``offset`` is from its parent's origin to its solid's centre, ``center`` and ``rotation`` are in
-    the world. ``alike``: it has the looks, and so the size, that it had.
+    the world; ``center`` is ``None`` where it had to make way for a neighbour. ``size`` is what it
+    had. ``alike``: it has the looks, and so the size, still; ``labelled``: its label, too.
     """
 
     offset: Vector
-    center: Vector
+    center: Vector | None
     rotation: Quaternion
+    size: Size
     alike: bool
+    labelled: bool
 
 
 @dataclass(slots=True)
 class Sized:
     """An item with its solid.
 
-    ``children`` are those without positions, by number: their solids' centres seen from above,
+    ``contains`` tells whether others stand in it or on it; ``children`` are those of them without
+    positions, by number: their solids' centres seen from above,
     relative to its origin. ``lift`` is how high its own solid's centre is over what it stands on,
     where it does not stand there itself. ``stood`` is where it was before an edit; ``grew`` tells
     that it takes other room than then.
@@ -59,6 +63,7 @@ class Sized:
     solid: Solid
     size: Size
     turn: Quaternion
+    contains: bool = False
     children: dict[int, Place] = field(default_factory=dict)
     lift: float | None = None
     stood: Stood | None = None
@@ -75,10 +80,48 @@ class Sized:
         return self.is_free and self.stood is not None
 
     @property
+    def is_as_before(self) -> bool:
+        """Whether it takes the room that it took, where it took it."""
+        stood = self.stood
+        return stood is not None and stood.alike and stood.center is not None and not self.grew
+
+    def resize(self, size: Size) -> None:
+        """Give a block or a tray another size; what is of another shape has the size that it has.
+
+        Its solid is the same as if it had been made so.
+        """
+        shape = shape_of(self.item, self.style, self.contains)
+        self.solid, self.size = resized(shape, self.solid, size), size
+
+    @property
+    def is_alike(self) -> bool:
+        """Whether it looks as it did before an edit."""
+        return self.stood is not None and self.stood.alike
+
+    def is_as_it_stood(self, offset: Vector) -> bool:
+        """Whether ``offset`` is its old one, so that it moves with its parent alone."""
+        return (
+            self.is_free
+            and self.is_alike
+            and self.stood is not None
+            and (self.stood.offset == offset)
+        )
+
+    def forget(self) -> None:
+        """Let go of where it stood, to be placed anew."""
+        self.stood = None
+        self.turn = own_turn(self.item)
+
+    @property
     def has_own_size(self) -> bool:
         """Whether the document or the notation fixes the size."""
         shape = self.item.shape or self.style.shape
         return getattr(shape, "size", None) is not None
+
+    @property
+    def can_grow(self) -> bool:
+        """Whether it is as large as its contents need."""
+        return isinstance(self.solid, Box | Tray) and not self.has_own_size
 
     @property
     def footprint(self) -> Footprint:
@@ -140,5 +183,9 @@ def _alone(item: Item, style: ItemStyle, has_children: bool, labelled: bool) -> 
         width = least if label is None else label.width
         contents = (width + 2 * style.padding, max(least, strip(label)) + 2 * style.padding)
     solid = fit(shape, item, style, label, contents)
-    turn = from_degrees(*item.rotation) if item.rotation else UNTURNED
-    return Sized(item, style, label, solid, size_of(solid), turn)
+    return Sized(item, style, label, solid, size_of(solid), own_turn(item), has_children)
+
+
+def own_turn(item: Item) -> Quaternion:
+    """How the document turns an item."""
+    return from_degrees(*item.rotation) if item.rotation else UNTURNED

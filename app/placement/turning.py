@@ -57,6 +57,11 @@ def turned(quaternion: Quaternion, vector: Vector) -> Vector:
     return (a + 2 * (y * k - z * j), b + 2 * (z * i - x * k), c + 2 * (x * j - y * i))
 
 
+def moved(place: Vector, by: Vector) -> Vector:
+    """``place`` after a move."""
+    return (place[0] + by[0], place[1] + by[1], place[2] + by[2])
+
+
 def turning_up_to(direction: Vector) -> Quaternion:
     """The shortest turn that takes z to ``direction``, which is of any length but not zero.
 

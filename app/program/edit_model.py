@@ -46,7 +46,10 @@ class SetItem(Part):
 
     type: Literal["set_item"]
     id: Id
-    fields: Fields = Field(description="As in JSON Merge Patch; not `id` and `parent`.")
+    fields: Fields = Field(
+        description="As in JSON Merge Patch; not `id` and `parent`. A shape of another type takes "
+        "nothing from the old one."
+    )
 
 
 class Reparent(Part):

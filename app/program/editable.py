@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from typing import TypeVar
 
 from app.program.model import Attachment, Constraint, Hyperedge, Item, Program
@@ -20,9 +20,8 @@ class Editable:
         self.program = program
         self.items = {item.id: item for item in program.items}
         self.hyperedges = {hyperedge.id: hyperedge for hyperedge in program.hyperedges}
-        self.names: dict[str, str] = {}
-        """New ids of items, and the ids that they had at the start."""
-        self.hyperedge_names: dict[str, str] = {}
+        self._origins = {name: name for name in self.items}
+        self._hyperedge_origins = {name: name for name in self.hyperedges}
         self._constraints = list(program.layout.constraints)
         self._contents: dict[str | None, dict[str, None]] = {}
         self._joined_by: dict[str, dict[str, None]] = {}
@@ -30,6 +29,16 @@ class Editable:
             self._contents.setdefault(item.parent, {})[item.id] = None
         for hyperedge in program.hyperedges:
             self._join(hyperedge)
+
+    @property
+    def names(self) -> dict[str, str]:
+        """New ids of items that had others at the start, and those."""
+        return _others(self._origins)
+
+    @property
+    def hyperedge_names(self) -> dict[str, str]:
+        """New ids of hyperedges that had others at the start, and those."""
+        return _others(self._hyperedge_origins)
 
     def freeze(self) -> Program:
         """The program as it is now; nobody has checked it."""
@@ -70,17 +79,24 @@ class Editable:
         self.items[item.id] = item
         self._contents.setdefault(item.parent, {})[item.id] = None
 
-    def remove_item(self, name: str) -> None:
-        """Remove an item that contains nothing, and the ends of hyperedges on it."""
-        for hyperedge in tuple(self._joined_by.get(name, ())):
-            kept = tuple(end for end in self.hyperedges[hyperedge].attachments if end.item != name)
+    def remove_items(self, names: Collection[str]) -> None:
+        """Remove items, with all that they contain among them, and the ends of hyperedges there.
+
+        A hyperedge that has less than two ends left goes too.
+        """
+        gone = frozenset(names)
+        joined = {hyperedge: None for name in names for hyperedge in self._joined_by.get(name, ())}
+        for hyperedge in joined:
+            ends = self.hyperedges[hyperedge].attachments
+            kept = tuple(end for end in ends if end.item not in gone)
             if len(kept) < 2:
                 self.remove_hyperedge(hyperedge)
             else:
                 self.put_attachments(hyperedge, kept)
-        self.leave_line_ups(name)
-        del self._contents[self.items.pop(name).parent][name]
-        self.names.pop(name, None)
+        self.leave_line_ups(*names)
+        for name in names:
+            del self._contents[self.items.pop(name).parent][name]
+            self._origins.pop(name, None)
 
     def rename_item(self, name: str, to: str) -> None:
         """Call an item ``to``, which no other one is called, wherever it stands."""
@@ -106,12 +122,13 @@ class Editable:
             else constraint
             for constraint in self._constraints
         ]
-        self.names[to] = self.names.pop(name, name)
+        _follow(self._origins, name, to)
 
-    def leave_line_ups(self, name: str) -> None:
-        """Take an item out of every row, column or helix; one of a single item is none."""
+    def leave_line_ups(self, *names: str) -> None:
+        """Take items out of every row, column or helix; one of a single item is none."""
+        leaving = frozenset(names)
         self._constraints = [
-            kept for one in self._constraints if (kept := _without(one, name)) is not None
+            kept for one in self._constraints if (kept := _without(one, leaving)) is not None
         ]
 
     def put_hyperedge(self, hyperedge: Hyperedge) -> None:
@@ -129,7 +146,7 @@ class Editable:
     def remove_hyperedge(self, name: str) -> None:
         """Remove a hyperedge."""
         self._part(self.hyperedges.pop(name))
-        self.hyperedge_names.pop(name, None)
+        self._hyperedge_origins.pop(name, None)
 
     def rename_hyperedge(self, name: str, to: str) -> None:
         """Call a hyperedge ``to``, which no other one is called."""
@@ -138,7 +155,7 @@ class Editable:
         self.hyperedges = _renamed(self.hyperedges, name, to)
         self.hyperedges[to] = hyperedge.model_copy(update={"id": to})
         self._join(self.hyperedges[to])
-        self.hyperedge_names[to] = self.hyperedge_names.pop(name, name)
+        _follow(self._hyperedge_origins, name, to)
 
     def _join(self, hyperedge: Hyperedge) -> None:
         for end in hyperedge.attachments:
@@ -154,8 +171,17 @@ def _renamed(parts: dict[str, Entry], name: str, to: str) -> dict[str, Entry]:
     return {to if key == name else key: part for key, part in parts.items()}
 
 
-def _without(constraint: Constraint, name: str) -> Constraint | None:
-    if name not in constraint.items:
+def _follow(origins: dict[str, str], name: str, to: str) -> None:
+    if name in origins:
+        origins[to] = origins.pop(name)
+
+
+def _others(origins: Mapping[str, str]) -> dict[str, str]:
+    return {name: origin for name, origin in origins.items() if name != origin}
+
+
+def _without(constraint: Constraint, names: frozenset[str]) -> Constraint | None:
+    if names.isdisjoint(constraint.items):
         return constraint
-    kept = tuple(one for one in constraint.items if one != name)
+    kept = tuple(one for one in constraint.items if one not in names)
     return constraint.model_copy(update={"items": kept}) if len(kept) > 1 else None

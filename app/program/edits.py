@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -12,6 +12,16 @@ from app.errors import DocumentError, DocumentTooLarge, Fault, InconsistentDocum
 from app.program.base import Part
 from app.program.checking import check
 from app.program.csg import refuse_large_trees
+from app.program.edit_checks import (
+    WrongEdit,
+    all_said,
+    let_go,
+    must_be_attachable,
+    must_be_free,
+    must_be_joined,
+    must_be_known,
+    said,
+)
 from app.program.edit_model import (
     AddHyperedge,
     AddItem,
@@ -36,7 +46,7 @@ from app.program.editable import Editable
 from app.program.grouping import group, ungroup
 from app.program.hints import Hints
 from app.program.merging import merged
-from app.program.model import Attachment, Hyperedge, Item, Program
+from app.program.model import Hyperedge, Item, Program
 from app.program.parsing import parse
 from app.program.reading import validate
 from app.program.shapes import Csg, Tray
@@ -47,9 +57,6 @@ AnyPart = TypeVar("AnyPart", bound=Part)
 _ITEMS = ("item", "tray", "fields")
 """Where in an edit an item may stand, or fields of one."""
 
-End = tuple[str, str | None]
-"""What an attachment says: an item, and a point or none."""
-
 
 @dataclass(frozen=True, slots=True)
 class Edited:
@@ -58,14 +65,6 @@ class Edited:
     program: Program
     items: Mapping[str, str] = field(default_factory=dict)
     hyperedges: Mapping[str, str] = field(default_factory=dict)
-
-
-class WrongEdit(Exception):
-    """An edit cannot be done: at which of its places, and why."""
-
-    def __init__(self, place: tuple[str | int, ...], detail: str) -> None:
-        super().__init__(detail)
-        self.place, self.detail = place, detail
 
 
 def apply_edits(before: Program, data: bytes, settings: Settings) -> Edited:
@@ -125,38 +124,42 @@ def _check(program: Program, settings: Settings) -> None:
 
 
 def _add_item(program: Editable, edit: AddItem, hints: Hints) -> None:
-    _free(edit.item.id, program.items, "item", "item", "id")
+    must_be_free(edit.item.id, program.items, "item", "item", "id")
     if edit.item.parent is not None:
-        _known(edit.item.parent, program.items, hints, "item", "parent")
+        must_be_known(edit.item.parent, program.items, hints, "item", "parent")
     program.put_item(edit.item)
 
 
 def _remove_item(program: Editable, edit: RemoveItem, hints: Hints) -> None:
-    _known(edit.id, program.items, hints, "id")
-    for name in reversed(tuple(program.within(edit.id))):
-        program.remove_item(name)
+    must_be_known(edit.id, program.items, hints, "id")
+    program.remove_items(tuple(program.within(edit.id)))
 
 
 def _rename_item(program: Editable, edit: RenameItem, hints: Hints) -> None:
-    _known(edit.id, program.items, hints, "id")
+    must_be_known(edit.id, program.items, hints, "id")
     if edit.to != edit.id:
-        _free(edit.to, program.items, "item", "to")
+        must_be_free(edit.to, program.items, "item", "to")
         program.rename_item(edit.id, edit.to)
 
 
 def _set_item(program: Editable, edit: SetItem, hints: Hints) -> None:
-    _known(edit.id, program.items, hints, "id")
+    must_be_known(edit.id, program.items, hints, "id")
     _refuse_fields(edit.fields, {"id": "rename_item", "parent": "reparent"})
-    item = _with_fields(Item, program.items[edit.id], edit.fields)
+    before = program.items[edit.id]
+    shape, now = before.shape, edit.fields.get("shape")
+    if shape is not None and isinstance(now, dict) and now.get("type", shape.type) != shape.type:
+        # Sizes of the old shape say nothing of one of another type.
+        before = before.model_copy(update={"shape": None})
+    item = _with_fields(Item, before, edit.fields)
     if "position" in edit.fields and item.position is not None:
         program.leave_line_ups(edit.id)
     program.put_item(item)
 
 
 def _reparent(program: Editable, edit: Reparent, hints: Hints) -> None:
-    _known(edit.id, program.items, hints, "id")
+    must_be_known(edit.id, program.items, hints, "id")
     if edit.parent is not None:
-        _known(edit.parent, program.items, hints, "parent")
+        must_be_known(edit.parent, program.items, hints, "parent")
         if edit.parent in program.within(edit.id):
             raise WrongEdit(("parent",), "An item cannot be contained in itself.")
     item = program.items[edit.id]
@@ -168,12 +171,12 @@ def _reparent(program: Editable, edit: Reparent, hints: Hints) -> None:
 
 def _group(program: Editable, edit: Group, hints: Hints) -> None:
     for place, name in enumerate(edit.items):
-        _known(name, program.items, hints, "items", place)
+        must_be_known(name, program.items, hints, "items", place)
         if program.items[name].parent != program.items[edit.items[0]].parent:
             raise WrongEdit(("items", place), "Items to group must have the same parent.")
     if len(set(edit.items)) < len(edit.items):
         raise WrongEdit(("items",), "No item can be grouped twice.")
-    _free(edit.tray.id, program.items, "item", "tray", "id")
+    must_be_free(edit.tray.id, program.items, "item", "tray", "id")
     parent = program.items[edit.items[0]].parent
     if edit.tray.parent not in {None, parent}:
         raise WrongEdit(("tray", "parent"), "The new item gets the parent that the items had.")
@@ -182,42 +185,42 @@ def _group(program: Editable, edit: Group, hints: Hints) -> None:
 
 
 def _ungroup(program: Editable, edit: Ungroup, hints: Hints) -> None:
-    _known(edit.id, program.items, hints, "id")
+    must_be_known(edit.id, program.items, hints, "id")
     ungroup(program, edit.id)
 
 
 def _add_hyperedge(program: Editable, edit: AddHyperedge, hints: Hints) -> None:
-    _free(edit.hyperedge.id, program.hyperedges, "hyperedge", "hyperedge", "id")
-    _attachable(program, edit.hyperedge.attachments, hints, "hyperedge", "attachments")
+    must_be_free(edit.hyperedge.id, program.hyperedges, "hyperedge", "hyperedge", "id")
+    must_be_attachable(program, edit.hyperedge.attachments, hints, "hyperedge", "attachments")
     program.put_hyperedge(edit.hyperedge)
 
 
 def _remove_hyperedge(program: Editable, edit: RemoveHyperedge, hints: Hints) -> None:
-    _known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
+    must_be_known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
     program.remove_hyperedge(edit.id)
 
 
 def _rename_hyperedge(program: Editable, edit: RenameHyperedge, hints: Hints) -> None:
-    _known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
+    must_be_known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
     if edit.to != edit.id:
-        _free(edit.to, program.hyperedges, "hyperedge", "to")
+        must_be_free(edit.to, program.hyperedges, "hyperedge", "to")
         program.rename_hyperedge(edit.id, edit.to)
 
 
 def _set_hyperedge(program: Editable, edit: SetHyperedge, hints: Hints) -> None:
-    _known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
+    must_be_known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
     _refuse_fields(edit.fields, {"id": "rename_hyperedge", "attachments": "connect and disconnect"})
     before = program.hyperedges[edit.id]
     program.put_hyperedge(_with_fields(Hyperedge, before, edit.fields))
 
 
 def _connect(program: Editable, edit: Connect, hints: Hints) -> None:
-    _known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
-    _attachable(program, edit.attachments, hints, "attachments")
+    must_be_known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
+    must_be_attachable(program, edit.attachments, hints, "attachments")
     joined = program.hyperedges[edit.id].attachments
-    present = _ends(joined)
+    present = all_said(joined)
     for place, end in enumerate(edit.attachments):
-        if _end(end) in present:
+        if said(end) in present:
             raise WrongEdit(
                 ("attachments", place), "This hyperedge has the same attachment already."
             )
@@ -225,36 +228,36 @@ def _connect(program: Editable, edit: Connect, hints: Hints) -> None:
 
 
 def _disconnect(program: Editable, edit: Disconnect, hints: Hints) -> None:
-    _known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
-    _let_go(program, edit.id, edit.attachments, "attachments")
+    must_be_known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
+    let_go(program, edit.id, edit.attachments, "attachments")
 
 
 def _merge(program: Editable, edit: Merge, hints: Hints) -> None:
-    _known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
-    _known(edit.other, program.hyperedges, hints, "other", what="hyperedge")
+    must_be_known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
+    must_be_known(edit.other, program.hyperedges, hints, "other", what="hyperedge")
     if edit.id == edit.other:
         raise WrongEdit(("other",), "A hyperedge cannot be merged with itself.")
     joined = program.hyperedges[edit.id].attachments
-    present = _ends(joined)
+    present = all_said(joined)
     others = program.hyperedges[edit.other].attachments
     program.remove_hyperedge(edit.other)
     program.put_attachments(
-        edit.id, (*joined, *(end for end in others if _end(end) not in present))
+        edit.id, (*joined, *(end for end in others if said(end) not in present))
     )
 
 
 def _split(program: Editable, edit: Split, hints: Hints) -> None:
-    _known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
-    _free(edit.into, program.hyperedges, "hyperedge", "into")
+    must_be_known(edit.id, program.hyperedges, hints, "id", what="hyperedge")
+    must_be_free(edit.into, program.hyperedges, "hyperedge", "into")
     whole = program.hyperedges[edit.id]
-    moving = _ends(edit.attachments)
+    moving = all_said(edit.attachments)
     for place, end in enumerate(edit.shared):
-        if _end(end) not in moving:
+        if said(end) not in moving:
             raise WrongEdit(("shared", place), "Only attachments of the new hyperedge are shared.")
-    shared = _ends(edit.shared)
-    leaving = tuple(end for end in edit.attachments if _end(end) not in shared)
-    _refuse_strangers(whole, edit.attachments, "attachments")
-    _let_go(program, edit.id, leaving, "attachments")
+    shared = all_said(edit.shared)
+    leaving = tuple(end for end in edit.attachments if said(end) not in shared)
+    must_be_joined(whole, edit.attachments, "attachments")
+    let_go(program, edit.id, leaving, "attachments")
     program.put_hyperedge(
         whole.model_copy(update={"id": edit.into, "attachments": edit.attachments})
     )
@@ -288,67 +291,6 @@ _DO: Mapping[type[Part], Callable[[Editable, Any, Hints], None]] = {
 }
 
 
-def _known(
-    name: str,
-    known: Collection[str],
-    hints: Hints,
-    *place: str | int,
-    what: str = "item",
-) -> None:
-    if name not in known:
-        raise WrongEdit(place, f'There is no {what} "{name}".{hints.at(name, known)}')
-
-
-def _free(name: str, known: Collection[str], what: str, *place: str | int) -> None:
-    if name in known:
-        raise WrongEdit(place, f'There is a {what} "{name}" already; ids must be unique.')
-
-
-def _attachable(
-    program: Editable, ends: tuple[Attachment, ...], hints: Hints, *place: str | int
-) -> None:
-    """Check that each of ``ends`` exists, and that none stands twice."""
-    seen: set[End] = set()
-    for number, end in enumerate(ends):
-        _known(end.item, program.items, hints, *place, number, "item")
-        points = {point.id for point in program.items[end.item].attachment_points}
-        if end.point is not None and end.point not in points:
-            raise WrongEdit(
-                (*place, number, "point"),
-                f'Item "{end.item}" has no attachment point "{end.point}".'
-                f"{hints.at(end.point, points)}",
-            )
-        if _end(end) in seen:
-            raise WrongEdit((*place, number), "The same attachment stands twice.")
-        seen.add(_end(end))
-
-
-def _let_go(
-    program: Editable, name: str, leaving: tuple[Attachment, ...], *place: str | int
-) -> None:
-    whole = program.hyperedges[name]
-    _refuse_strangers(whole, leaving, *place)
-    gone = _ends(leaving)
-    kept = tuple(end for end in whole.attachments if _end(end) not in gone)
-    if len(kept) < 2:
-        raise WrongEdit(place, f'Then "{name}" would join less than two; remove it instead.')
-    program.put_attachments(name, kept)
-
-
-def _refuse_strangers(
-    hyperedge: Hyperedge, ends: tuple[Attachment, ...], *place: str | int
-) -> None:
-    """Refuse what the hyperedge does not join, and what stands twice."""
-    joined = _ends(hyperedge.attachments)
-    for number, end in enumerate(ends):
-        if _end(end) not in joined:
-            at = "" if end.point is None else f' at "{end.point}"'
-            raise WrongEdit(
-                (*place, number), f'"{hyperedge.id}" does not join "{end.item}"{at} (any more).'
-            )
-        joined.discard(_end(end))
-
-
 def _refuse_fields(fields: Fields, instead: Mapping[str, str]) -> None:
     for name, edit in instead.items():
         if name in fields:
@@ -359,11 +301,3 @@ def _with_fields(model: type[AnyPart], part: AnyPart, fields: Fields) -> AnyPart
     """The part with other fields. Raises `InvalidDocument` with pointers into the part."""
     document: JsonValue = part.model_dump(mode="json", exclude_defaults=True)
     return validate(model, merged(document, fields))
-
-
-def _end(attachment: Attachment) -> End:
-    return attachment.item, attachment.point
-
-
-def _ends(attachments: Iterable[Attachment]) -> set[End]:
-    return set(map(_end, attachments))

@@ -43,7 +43,7 @@ def ungroup(program: Editable, name: str) -> None:
             position = _vector(np.array(item.position) + np.array(tray.position))
         program.leave_line_ups(content)
         program.put_item(item.model_copy(update={"parent": tray.parent, "position": position}))
-    program.remove_item(name)
+    program.remove_items([name])
 
 
 def _vector(values: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Vector:
