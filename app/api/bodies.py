@@ -67,9 +67,23 @@ async def _in_time(request: Request, limit: int) -> bytes:
         async with asyncio.timeout(settings.upload_seconds):
             return await _read(request, limit)
     except TimeoutError:
-        raise SlowUploadError(
-            f"The body did not come within {settings.upload_seconds:g} seconds."
-        ) from None
+        raise SlowUploadError(_too_slow(settings)) from None
+
+
+async def has_body(request: Request) -> bool:
+    """Whether anything comes as a body; no more than its beginning is read.
+
+    Raises `SlowUploadError`.
+    """
+    settings: Settings = request.app.state.settings
+    try:
+        async with asyncio.timeout(settings.upload_seconds):
+            async for chunk in request.stream():
+                if chunk:
+                    return True
+    except TimeoutError:
+        raise SlowUploadError(_too_slow(settings)) from None
+    return False
 
 
 async def _read(request: Request, limit: int) -> bytes:
@@ -116,3 +130,7 @@ def _check_is_json(headers: Mapping[str, str]) -> None:
 
 def _too_large(limit: int) -> str:
     return f"The body has more than the {limit} bytes that this service takes."
+
+
+def _too_slow(settings: Settings) -> str:
+    return f"The body did not come within {settings.upload_seconds:g} seconds."

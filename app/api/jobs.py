@@ -13,7 +13,7 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from app.api import guard
-from app.api.bodies import read_document, source_of
+from app.api.bodies import has_body, read_document, source_of
 from app.api.conditions import known_tags
 from app.api.job_events import job_events
 from app.api.job_model import JobList, JobModel
@@ -82,7 +82,7 @@ async def start_job(request: Request, query: Annotated[JobQuery, QueryParameters
         document = await read_document(request, settings.max_body_bytes)
         options = render_options(query, wanted, source_of(request, query))
         return await start(request, document, options, body=document)
-    if query.source not in {None, "tubeloom"} or await request.body():
+    if query.source not in {None, "tubeloom"} or await has_body(request):
         raise ContradictionError("Send a document, or name a stored program, not both.")
     guard.require(request, Scope.READ)
     content = await content_of(request, query.program, query.revision)

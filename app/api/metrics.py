@@ -6,14 +6,14 @@ methods, statuses, and names of stages that the pipeline has.
 
 from __future__ import annotations
 
+import asyncio
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from fastapi import APIRouter
 from prometheus_client import (
     CollectorRegistry,
     Counter,
-    Gauge,
     Histogram,
     ProcessCollector,
     Summary,
@@ -25,9 +25,12 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from app.api.scopes import TABLE, ScopeTable
+from app.errors import StoreUnavailable
 from app.jobs.answering import Answering
 from app.jobs.executor import WorkerPool
 from app.jobs.work import Stage
+from app.store import jobs
+from app.store.database import Database
 
 router = APIRouter(include_in_schema=False)
 
@@ -35,6 +38,9 @@ MEDIA_TYPE = "text/plain; version=0.0.4; charset=utf-8"
 
 SECONDS = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0)
 """Bounds of histograms: from an answer that is known already to the longest work."""
+
+PATIENCE_SECONDS = 2.0
+"""Prometheus waits for ten; what the database does not tell by then is left out."""
 
 METHODS = frozenset({"GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"})
 
@@ -80,15 +86,6 @@ class Metrics:
             ["stage"],
             registry=self.registry,
         )
-        self.jobs = Gauge("tubeloom_jobs", "Jobs by state.", ["state"], registry=self.registry)
-        """For ``jobs.labels("waiting")`` and ``"running"`` to be set, or to call a function."""
-        self.viewers = Gauge(
-            "tubeloom_event_viewers",
-            "Clients that follow events of programs and jobs.",
-            registry=self.registry,
-        )
-        for state in ("waiting", "running"):
-            self.jobs.labels(state)
 
     def watch(self, pool: WorkerPool, wanted: int) -> None:
         """Show how ``pool`` does, of which ``wanted`` workers are wanted."""
@@ -107,10 +104,13 @@ class Metrics:
         for stage in stages:
             self._stages.labels(self._stage_name(stage.name)).observe(stage.seconds)
 
-    def text(self, answering: Answering) -> bytes:
-        """Everything, as Prometheus reads it; also what ``answering`` has counted."""
+    def text(self, answering: Answering, viewers: int, jobs: Mapping[str, int]) -> bytes:
+        """Everything, as Prometheus reads it; also what ``answering`` has counted.
+
+        ``viewers`` follow events of programs and jobs; of ``jobs`` there are so many by state.
+        """
         more = CollectorRegistry()
-        more.register(_OfAnswers(answering))
+        more.register(_Present(answering, viewers, jobs))
         return generate_latest(self.registry) + generate_latest(more)
 
     def _stage_name(self, name: str) -> str:
@@ -138,9 +138,9 @@ class _OfPool(Collector):
         )
 
 
-class _OfAnswers(Collector):
-    def __init__(self, answering: Answering) -> None:
-        self._answering = answering
+class _Present(Collector):
+    def __init__(self, answering: Answering, viewers: int, jobs: Mapping[str, int]) -> None:
+        self._answering, self._viewers, self._jobs = answering, viewers, jobs
 
     def collect(self) -> Iterable[Metric]:
         answers = CounterMetricFamily(
@@ -150,14 +150,31 @@ class _OfAnswers(Collector):
         answers.add_metric(["shared"], self._answering.shared)
         answers.add_metric(["miss"], self._answering.misses)
         yield answers
+        yield GaugeMetricFamily(
+            "tubeloom_event_viewers",
+            "Clients that follow events of programs and jobs.",
+            self._viewers,
+        )
+        states = GaugeMetricFamily("tubeloom_jobs", "Jobs, of all services.", labels=["state"])
+        for state, number in self._jobs.items():
+            states.add_metric([state], number)
+        yield states
 
 
 @router.get("/metrics")
 async def metrics(request: Request) -> Response:
     """Figures of the service."""
-    found: Metrics = request.app.state.metrics
-    return Response(
-        found.text(request.app.state.answering),
-        media_type=MEDIA_TYPE,
-        headers={"Cache-Control": "no-store"},
-    )
+    state = request.app.state
+    found: Metrics = state.metrics
+    viewers = state.feed.watchers + state.desk.listeners.count
+    text = found.text(state.answering, viewers, await _jobs(state.database))
+    return Response(text, media_type=MEDIA_TYPE, headers={"Cache-Control": "no-store"})
+
+
+async def _jobs(database: Database) -> Mapping[str, int]:
+    """How many jobs there are by state; nothing where the database does not tell soon."""
+    try:
+        async with asyncio.timeout(PATIENCE_SECONDS):
+            return await database.read(jobs.counts)
+    except (StoreUnavailable, TimeoutError):
+        return {}

@@ -21,6 +21,11 @@ class Listeners:
         self.is_ending = False
         """Whether all should go: the service ends, and they may come back to another one."""
 
+    @property
+    def count(self) -> int:
+        """How many listen."""
+        return sum(map(len, self._queues.values()))
+
     @contextmanager
     def listening(self, job: str) -> Iterator[Heard]:
         """What is told of a job from now on."""

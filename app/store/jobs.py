@@ -136,10 +136,14 @@ def listing(connection: Connection, owner: str | None, before: str | None, limit
     return [_job(row) for row in connection.execute(query)]
 
 
-def count_waiting(connection: Connection) -> int:
-    """How many jobs nobody works on yet."""
-    query = select(func.count()).select_from(jobs).where(jobs.c.state == "waiting")
-    return int(connection.execute(query).scalar_one())
+def counts(connection: Connection) -> dict[str, int]:
+    """How many jobs wait, and how many are worked on, in all services together."""
+    states = ("waiting", "running")
+    query = (
+        select(jobs.c.state, func.count()).where(jobs.c.state.in_(states)).group_by(jobs.c.state)
+    )
+    found: dict[str, int] = dict(connection.execute(query).tuples().all())
+    return {state: found.get(state, 0) for state in states}
 
 
 def cancel(connection: Connection, job: str) -> bool:

@@ -54,6 +54,12 @@ def test_a_body_that_comes_too_slowly_is_refused_and_its_connection_closed(
     assert seconds < 1.5 + HEAD_SECONDS + 3
 
 
+def test_a_job_of_a_stored_program_takes_no_body_however_slow_or_long(impatient: Service) -> None:
+    asked = head(impatient, 10**9).replace(b"/v1/layout", b"/v1/jobs?program=stored")
+    assert status_of(trickle(impatient, asked, b"")[1]) == 408
+    assert status_of(exchange(impatient, asked + b"x" * 100_000)) == 422
+
+
 def test_a_head_that_comes_too_slowly_ends_the_connection(impatient: Service) -> None:
     with ThreadPoolExecutor(2) as threads:
         first = threads.submit(trickle, impatient, b"GET /healthz HTTP/1.1\r\n", b"x")

@@ -4,6 +4,7 @@ from pathlib import Path
 import httpx
 from prometheus_client.parser import text_string_to_metric_families
 
+from tests.api.job_calls import LONG, program, start
 from tests.service import SMALL, running_service, until
 
 
@@ -53,8 +54,6 @@ def test_workers_are_counted(client: httpx.Client) -> None:
     assert ("tubeloom_workers", labels(state="busy")) in found
     assert found["tubeloom_waiting", frozenset()] == 0
     assert ("tubeloom_workers_lost_total", frozenset()) in found
-    assert ("tubeloom_jobs", labels(state="waiting")) in found
-    assert ("tubeloom_event_viewers", frozenset()) in found
     assert found["process_open_fds", frozenset()] > 0
 
 
@@ -67,6 +66,31 @@ def test_what_is_asked_again_is_counted_as_such(client: httpx.Client) -> None:
     for outcome, grown in (("hit", 1), ("miss", 1), ("shared", 0)):
         key = ("tubeloom_cache_total", labels(outcome=outcome))
         assert after[key] - before[key] == grown
+
+
+def test_jobs_and_who_follows_them_are_counted(client: httpx.Client) -> None:
+    def jobs(state: str) -> float:
+        return samples(client)["tubeloom_jobs", labels(state=state)]
+
+    def viewers() -> float:
+        return samples(client)["tubeloom_event_viewers", frozenset()]
+
+    until(lambda: jobs("running") == jobs("waiting") == 0)
+    before = viewers()
+    job = start(client, LONG, program("Worked on for long, to be counted"))
+    until(lambda: jobs("running") == 1)
+    other = start(client, LONG, program("Waits, to be counted"))
+    until(lambda: jobs("waiting") == 1)
+    assert client.put("/v1/programs/watched", json=SMALL).is_success
+    with (
+        client.stream("GET", f"{job}/events"),
+        client.stream("GET", "/v1/programs/watched/events"),
+    ):
+        until(lambda: viewers() == before + 2)
+    until(lambda: viewers() == before)
+    for each in (job, other):
+        assert client.delete(each).status_code == 204
+    until(lambda: jobs("running") == jobs("waiting") == 0)
 
 
 def test_a_worker_that_dies_is_counted(tmp_path: Path) -> None:
