@@ -41,7 +41,7 @@ SENTENCES = {
     "too_long": "Must have at most {max_length} entries, not {actual_length}.",
     "too_many_keys": "Has far more keys than there are.",
     "too_short": "Must have at least {min_length} entries, not {actual_length}.",
-    "union_tag_not_found": 'Must have a "type".',
+    "union_tag_not_found": "Must have a {discriminator}.",
 }
 """The same, of what needs no value to be repeated."""
 
@@ -79,14 +79,17 @@ def is_echo(detail: ErrorDetails) -> bool:
 
 
 def _context(detail: ErrorDetails) -> Mapping[str, Any]:
-    return detail.get("ctx", {})
+    context = detail.get("ctx", {})
+    if "discriminator" in context:
+        return {**context, "discriminator": str(context["discriminator"]).replace("'", '"')}
+    return context
 
 
 def _given(detail: ErrorDetails) -> str:
     """The offending value as it stands in the document, or what it is where it is long."""
     value = detail["input"]
     if detail["type"] == "union_tag_invalid":
-        value = value["type"]
+        value = value[_context(detail)["discriminator"].strip('"')]
     if isinstance(value, dict):
         return "an object"
     if isinstance(value, list | tuple):
