@@ -108,6 +108,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     _protect(app, chosen)
     app.add_middleware(Journal)
     for part in ROUTED:
+        # To include the router would have each request look for its route three times over.
         app.router.routes.extend(part.router.routes)
     app.router.routes.append(docs.assets())
     app.openapi = lambda: schema.openapi(app)  # type: ignore[method-assign]  # FastAPI's own way

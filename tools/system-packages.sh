@@ -16,6 +16,7 @@ if [ "${1:-}" = test ]; then
   ls /usr/lib/postgresql/*/bin/postgres >/dev/null 2>&1 || lacks+=(postgres)
 elif [ "${1:-}" = bench ]; then
   command -v neato >/dev/null && command -v sfdp >/dev/null || lacks+=(graphviz)
+  command -v wrk >/dev/null || lacks+=(wrk)
 elif ! has_library libOSMesa.so && ! has_library libEGL_mesa; then
   lacks+=(osmesa)
 fi
@@ -49,6 +50,7 @@ for part in "${lacks[@]}"; do
     chromium) packages+=(chromium) ;;
     postgres) packages+=(postgresql) ;;
     graphviz) packages+=(graphviz) ;;
+    wrk) packages+=(wrk) ;;
     node) packages+=(nodejs npm) ;;
   esac
 done

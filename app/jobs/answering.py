@@ -33,6 +33,11 @@ HASHED_AT_ONCE = 256 * 1024
 STORING_BYTES = 64 * 1024 * 1024
 """Of answers on their way into the store, at most; those beyond it are not kept."""
 
+SLOW_SECONDS = 1.0
+PAUSE_SECONDS = 30.0
+"""A store that takes so long to have nothing is left alone for a while: askers should not wait for
+it one after another."""
+
 
 class Answering:
     """Stands before the pool of workers, and is asked in the same way.
@@ -47,6 +52,7 @@ class Answering:
         self._flights: Flights[Finished] = Flights()
         self._storing: set[asyncio.Task[None]] = set()
         self._storing_bytes = 0
+        self._ask_again = 0.0
         self.hits = 0
         """Answers that were there already."""
         self.misses = 0
@@ -132,7 +138,13 @@ class Answering:
 
     async def _kept(self, key: str) -> Kept | None:
         """The answer, if it is among the results."""
+        clock = asyncio.get_running_loop().time
+        if (began := clock()) < self._ask_again:
+            return None
         if (result := await self._results.get(key)) is None:
+            if clock() > began + SLOW_SECONDS:
+                log.warning("results are slow and not asked for a while")
+                self._ask_again = clock() + PAUSE_SECONDS
             return None
         notes = result.notes
         answer = Answer(b"", result.media_type, notes["etag"], notes["name"], notes["notes"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from typing import Protocol, Self
 
@@ -84,7 +85,7 @@ class LocalCrew:
     async def _started(self) -> WorkerPool:
         async with self._starting:
             if self._pool is None:
-                pool = WorkerPool(self._settings, attempts=1)
+                pool = WorkerPool(self._settings, attempts=1, line_seconds=math.inf)
                 if self._witness is not None:
                     pool.witness = self._witness
                 self._pool = await self._stack.enter_async_context(pool)

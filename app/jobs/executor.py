@@ -29,6 +29,13 @@ GRACE_SECONDS = 0.5
 """How long work that nobody waits for may go on, unless it is known to be slow: new workers take
 longer to start."""
 
+PROMPT_SECONDS = 3.0
+"""How long a line may take, by what works took lately, unless it is short: who would wait longer is
+better told at once, and a line that has grown is soon gone again."""
+
+SHORT_LINE = 4
+"""Works for each worker, which may wait however long those before them take."""
+
 LONGEST_PAUSE_SECONDS = 30.0
 """Between attempts to start workers that die at their start."""
 
@@ -62,15 +69,19 @@ class WorkerPool:
 
     Use it as an asynchronous context manager. Its start does not wait for the workers: works
     that come before they are warm stand in line. A work whose worker dies is tried ``attempts``
-    times.
+    times. Where the line would take longer than ``line_seconds``, nobody else may wait in it.
     """
 
-    def __init__(self, settings: Settings, attempts: int = 2) -> None:
+    def __init__(
+        self, settings: Settings, attempts: int = 2, line_seconds: float = PROMPT_SECONDS
+    ) -> None:
         self._settings, self._attempts = settings, attempts
+        self._line_seconds = line_seconds
         self._idle: list[WorkerProcess] = []
         self._line: deque[asyncio.Future[WorkerProcess]] = deque()
         self._slots: list[asyncio.Task[None]] = []
         self._first_started = asyncio.Event()
+        self._usual_seconds = 0.0
         self.warm = 0
         """How many workers are alive and have warmed up."""
         self.draft_problem: str | None = "No worker has started yet."
@@ -148,7 +159,9 @@ class WorkerPool:
             else:
                 return reply, pieces, waited
             finally:
-                self.witness(clock() - began, stages)
+                took = clock() - began
+                self._usual_seconds += 0.1 * (took - self._usual_seconds)
+                self.witness(took, stages)
         raise WorkerLost(lost_after(self._attempts))
 
     async def _do(
@@ -194,7 +207,7 @@ class WorkerPool:
             worker = self._idle.pop()
             if not worker.died.done():
                 return worker
-        if len(self._line) >= self._settings.max_waiting and not first:
+        if self._is_line_full() and not first:
             raise Overloaded("All workers are busy and the line is full; try again soon.")
         place: asyncio.Future[WorkerProcess] = asyncio.get_running_loop().create_future()
         (self._line.appendleft if first else self._line.append)(place)
@@ -210,6 +223,14 @@ class WorkerPool:
             self._line.remove(place)
             raise Overloaded("No worker became free in time; try again soon.")
         return place.result()
+
+    def _is_line_full(self) -> bool:
+        """Whether nobody else should wait."""
+        waiting, workers = len(self._line), self._settings.workers
+        if waiting >= self._settings.max_waiting:
+            return True
+        would_take = waiting * self._usual_seconds / workers
+        return waiting >= SHORT_LINE * workers and would_take > self._line_seconds
 
     def _give(self, worker: WorkerProcess) -> None:
         """Hand a worker that has nothing to do to whoever is first in line."""

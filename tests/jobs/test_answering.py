@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import socket
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -20,6 +21,7 @@ from app.jobs.work import Report
 from app.output.media import SceneFormat
 from app.settings import Settings
 from app.store.database import Database
+from app.store.objects import ANSWER_SECONDS
 from app.store.results import Results
 from tests.service import SMALL, large_program
 
@@ -53,8 +55,9 @@ async def answering(folder: Path, pool: WorkerPool, **settings: Any) -> AsyncIte
     database.migrate()
     chosen = Settings(**settings)
     try:
+        place = chosen.results or folder / "results"
         async with (
-            Results(folder / "results", database, chosen.results_bytes) as results,
+            Results(place, database, chosen.results_bytes) as results,
             Answering(pool, results, chosen) as found,
         ):
             yield found
@@ -259,5 +262,29 @@ def test_other_limits_and_other_layouts_are_other_questions(
                 strict.key(b"ab", GLB),
             }
             assert len(keys) == 5
+
+    in_pool(test)
+
+
+def test_a_store_that_does_not_answer_is_waited_for_once(
+    in_pool: Callable[[Test], None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("AWS_ACCESS_KEY_ID", "AWS_SECRET_ACCESS_KEY", "AWS_DEFAULT_REGION"):
+        monkeypatch.setenv(name, "a")
+    monkeypatch.setenv("AWS_ALLOW_HTTP", "true")
+
+    async def test(pool: WorkerPool) -> None:
+        async with answering(tmp_path, pool) as found:
+            for name in "gh":
+                await found.answer(named(name), GLB)
+        with socket.create_server(("127.0.0.1", 0)) as silent:
+            monkeypatch.setenv("AWS_ENDPOINT_URL", f"http://127.0.0.1:{silent.getsockname()[1]}")
+            async with answering(tmp_path, pool, results="s3://bucket", results_bytes=0) as found:
+                loop = asyncio.get_running_loop()
+                times = [loop.time()]
+                for name in "gh":
+                    assert (await found.answer(named(name), GLB)).cache == "miss"
+                    times.append(loop.time())
+                assert times[1] - times[0] > ANSWER_SECONDS > times[2] - times[1]
 
     in_pool(test)

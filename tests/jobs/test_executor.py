@@ -14,7 +14,7 @@ import pytest
 
 from app.answers import Answer, LayoutOptions, RenderOptions, Unchanged
 from app.errors import DeadlineExceeded, DocumentTooLarge, InvalidDocument, Overloaded
-from app.jobs.executor import WorkerPool
+from app.jobs.executor import SHORT_LINE, WorkerPool
 from app.settings import Settings
 from tests.service import SMALL, large_program, wide_program
 
@@ -148,6 +148,19 @@ def test_a_full_line_turns_works_away_at_once_and_leaving_it_frees_a_place(
         assert busy.done()
 
     in_pool(test)
+
+
+@pytest.mark.parametrize(("line_seconds", "answered"), [(3.0, 20), (1e-4, 1 + SHORT_LINE)])
+def test_only_a_line_that_is_soon_done_may_grow_long(line_seconds: float, answered: int) -> None:
+    async def run() -> None:
+        async with WorkerPool(Settings(workers=1), line_seconds=line_seconds) as pool:
+            await warm(pool)
+            asked = [pool.answer(DOCUMENT, LayoutOptions()) for _ in range(20)]
+            outcomes = await asyncio.gather(*asked, return_exceptions=True)
+            assert sum(isinstance(each, Overloaded) for each in outcomes) == 20 - answered
+            await pool.answer(DOCUMENT, LayoutOptions())
+
+    asyncio.run(run())
 
 
 def test_short_work_that_nobody_waits_for_ends_and_keeps_its_worker(

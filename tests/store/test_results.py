@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import socket
 import time
 from collections.abc import Callable, Coroutine
 from pathlib import Path
@@ -11,8 +12,10 @@ from typing import Any
 
 import pytest
 
+from app.errors import StoreUnavailable
 from app.store import results as module
 from app.store.database import Database
+from app.store.objects import ANSWER_SECONDS
 from app.store.results import Result, Results
 
 KEYS = [f"{number:064x}" for number in range(8)]
@@ -243,3 +246,41 @@ def test_keys_and_places_that_cannot_be_are_refused(folder: Path, database: Data
     do(folder, database, work)
     with pytest.raises(ValueError, match="nonsense"):
         Results("nonsense://x", database, 1)
+
+
+def test_a_store_that_does_not_answer_is_a_miss_soon(
+    folder: Path, database: Database, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def write(results: Results) -> None:
+        await results.put(KEYS[0], (b"abc",), JSON, {})
+
+    async def read(results: Results) -> None:
+        began = time.monotonic()
+        assert await results.get(KEYS[0]) is None
+        assert time.monotonic() - began < 2 * ANSWER_SECONDS
+
+    do(folder, database, write)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        monkeypatch.setenv("AWS_ENDPOINT_URL", f"http://127.0.0.1:{silent.getsockname()[1]}")
+        for name in ("AWS_ACCESS_KEY_ID", "AWS_SECRET_ACCESS_KEY", "AWS_DEFAULT_REGION"):
+            monkeypatch.setenv(name, "a")
+        monkeypatch.setenv("AWS_ALLOW_HTTP", "true")
+        do("s3://bucket/results", database, read)
+    do(folder, database, write)
+
+
+def test_a_store_that_is_not_there_is_told_to_who_puts(
+    database: Database, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def work(results: Results) -> None:
+        with pytest.raises(StoreUnavailable):
+            await results.put(KEYS[0], (b"abc",), JSON, {})
+        assert await results.get(KEYS[0]) is None
+
+    with socket.create_server(("127.0.0.1", 0)) as gone:
+        port = gone.getsockname()[1]
+    monkeypatch.setenv("AWS_ENDPOINT_URL", f"http://127.0.0.1:{port}")
+    for name in ("AWS_ACCESS_KEY_ID", "AWS_SECRET_ACCESS_KEY", "AWS_DEFAULT_REGION"):
+        monkeypatch.setenv(name, "a")
+    monkeypatch.setenv("AWS_ALLOW_HTTP", "true")
+    do("s3://bucket/results", database, work)
