@@ -13,6 +13,7 @@ from typing import Any
 from urllib.parse import quote, urlencode
 
 from tests.hostile_bodies import bodies
+from tests.hostile_changes import VICTIM_PATH, changes
 from tests.hostile_parts import base, dumped
 from tests.hostile_trees import trees
 
@@ -25,10 +26,11 @@ class Hostile:
     path: str
     body: bytes
     headers: Mapping[str, str] = field(default_factory=dict)
+    method: str = "POST"
 
     def __str__(self) -> str:
         shown = self.body[:80] + (b"..." if len(self.body) > 80 else b"")
-        return f"{self.kind}: POST {self.path[:200]} {shown!r} ({len(self.body)} bytes)"
+        return f"{self.kind}: {self.method} {self.path[:200]} {shown!r} ({len(self.body)} bytes)"
 
 
 PATHS = (
@@ -41,6 +43,10 @@ PATHS = (
     "/v1/convert",
     "/v1/convert?to=hif",
 )
+
+
+STORED_SHARE = 0.2
+"""Of documents, those that are to be stored."""
 
 
 def hostile(number: int, seed: int = 1) -> Hostile:
@@ -59,9 +65,17 @@ def _documents(make: Callable[[random.Random], bytes]) -> Callable[[str, random.
     def request(kind: str, choices: random.Random) -> Hostile:
         # Conversions hand names on that they have no use for.
         paths = [path for path in PATHS if kind != "unknown" or "convert" not in path]
-        return Hostile(kind, choices.choice(paths), make(choices))
+        path, body = choices.choice(paths), make(choices)
+        if choices.random() < STORED_SHARE:
+            return Hostile(kind, VICTIM_PATH, body, method="PUT")
+        return Hostile(kind, path, body)
 
     return request
+
+
+def _change(kind: str, choices: random.Random) -> Hostile:
+    method, path, media_type, make = changes[kind]
+    return Hostile(kind, path, make(choices), {"Content-Type": media_type}, method)
 
 
 def _encoded(kind: str, choices: random.Random) -> Hostile:
@@ -177,6 +191,7 @@ def _query(kind: str, choices: random.Random) -> Hostile:
 
 KINDS: dict[str, Callable[[str, random.Random], Hostile]] = {
     **{name: _documents(make) for name, make in {**bodies, **trees}.items()},
+    **dict.fromkeys(changes, _change),
     "packed": _encoded,
     "media type": _media_type,
     "accept": _accept,

@@ -13,6 +13,7 @@ from http.client import HTTPConnection
 import psutil
 
 from tests.hostile import Hostile, described
+from tests.hostile_changes import VICTIM, VICTIM_PATH
 from tests.service import PATIENCE_SECONDS, SMALL, Service
 
 LONGEST_SECONDS = 1.0
@@ -48,13 +49,28 @@ class Report:
 def attack(service: Service, requests: Iterable[Hostile]) -> Report:
     """Send all ``requests``, one after another."""
     report = Report()
+    victim = _victim(service, "PUT")
     for number, request in enumerate(requests):
         _send(service, request, report)
         if number % HEALTHY_EVERY == 0:
             _check_health(service, request, report)
             report.memory.append(memory_of(service))
     report.memory.append(memory_of(service))
+    if _victim(service, "GET") != victim:
+        report.faults.append("The stored program is not what it was.")
     return report
+
+
+def _victim(service: Service, method: str) -> str | None:
+    """Store the program that changes are for, or look at it: its validator."""
+    connection = _connect(service)
+    try:
+        connection.request(method, VICTIM_PATH, VICTIM if method == "PUT" else None)
+        response = connection.getresponse()
+        response.read()
+        return response.headers["etag"]
+    finally:
+        connection.close()
 
 
 def memory_of(service: Service) -> int:
@@ -79,7 +95,7 @@ def _try(service: Service, request: Hostile, report: Report) -> tuple[float, str
     began = time.perf_counter()
     try:
         # http.client would refuse what it knows to be wrong.
-        connection.putrequest("POST", request.path)
+        connection.putrequest(request.method, request.path)
         headers = {"Content-Length": str(len(request.body)), **request.headers}
         for name, value in headers.items():
             connection.putheader(name, value)

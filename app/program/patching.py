@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 import jsonpatch
 import jsonpointer
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, RootModel
+from pydantic_core import from_json, to_json
 
 from app.errors import DocumentTooLarge, Fault, InvalidDocument, PatchConflict, pointer
 from app.program.merging import merged
@@ -20,6 +21,9 @@ from app.program.reading import program_of, validate
 from app.settings import Settings
 
 MOST_OPERATIONS = 10_000
+
+MOST_COPIED = 200_000
+"""Values that the operations of one patch may copy and compare together."""
 
 DEEPEST = 200
 """As deep as documents are read."""
@@ -82,7 +86,7 @@ def apply_json_patch(document: bytes, data: bytes, settings: Settings) -> Progra
     patched: Any = parse(document, settings)
     if not isinstance(patch, list):
         raise InvalidDocument([Fault("", "A JSON Patch is a list of operations.")])
-    room = settings.max_values
+    room = min(settings.max_values, MOST_COPIED)
     for number, operation in enumerate(patch):
         if not isinstance(operation, dict):
             continue
@@ -94,7 +98,8 @@ def apply_json_patch(document: bytes, data: bytes, settings: Settings) -> Progra
                     [Fault(pointer(number), "Copies make the document too large.")]
                 )
         try:
-            patched = jsonpatch.JsonPatch([operation]).apply(patched, in_place=True)
+            step = jsonpatch.JsonPatch([_without_copy(operation, patched)])
+            patched = step.apply(patched, in_place=True)
         except (jsonpatch.JsonPatchException, jsonpointer.JsonPointerException) as error:
             raise PatchConflict([Fault(pointer(number), _reason(operation, error))]) from None
         except (TypeError, RecursionError, ValueError):
@@ -112,6 +117,14 @@ def apply_merge_patch(document: bytes, data: bytes, settings: Settings) -> Progr
     program raises, with pointers into the patched document.
     """
     return program_of(merged(parse(document, settings), parse(data, settings)), settings)
+
+
+def _without_copy(operation: dict[str, Any], document: Any) -> dict[str, Any]:
+    """The same operation; a copy as an addition, since the library's copies are slow."""
+    if operation["op"] != "copy":
+        return operation
+    found = jsonpointer.JsonPointer(operation["from"]).resolve(document)
+    return {"op": "add", "path": operation["path"], "value": from_json(to_json(found))}
 
 
 def _at(document: Any, place: Any) -> Any:
