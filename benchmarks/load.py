@@ -67,6 +67,8 @@ class Figures:
     steady: Replies
     memory: Sequence[Memory]
     overload: Replies
+    refusals: Sequence[float]
+    """Seconds from each request that was turned away to its answer, as the service saw it."""
     recovery: float
     cached: Sequence[load_cached.Rate]
     busy: float
@@ -81,8 +83,11 @@ def measure(plan: Plan) -> Figures:
         running_service(Path(folder)) as service,
     ):
         highest, steady, memory, overload, recovery = asyncio.run(_under_load(service, plan))
+        refusals = sorted(
+            event["ms"] / 1000 for event in service.events() if event.get("status") == 503
+        )
         cached = load_cached.measure(service, plan.cached)
-    return Figures(highest, steady, memory, overload, recovery, cached, busy)
+    return Figures(highest, steady, memory, overload, refusals, recovery, cached, busy)
 
 
 async def _under_load(

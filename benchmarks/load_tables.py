@@ -90,11 +90,12 @@ def _memory(figures: Figures) -> str:
 
 def _overload(figures: Figures) -> str:
     replies = figures.overload
-    away = replies.seconds(status=503)
+    away, inside = replies.seconds(status=503), figures.refusals
     said = (
         f"{len(away)} of {len(replies.all)} were turned away (503 with Retry-After), half within "
         f"{1e3 * at_share(away, 0.5):.0f} ms, 99 % within {1e3 * at_share(away, 0.99):.0f} ms, all "
-        f"within {1e3 * away[-1]:.0f} ms"
+        f"within {1e3 * away[-1]:.0f} ms (by the service's own log half within "
+        f"{1e3 * at_share(inside, 0.5):.0f} ms, 99 % within {1e3 * at_share(inside, 0.99):.0f} ms)"
         if away
         else f"none of {len(replies.all)} was turned away"
     )

@@ -202,8 +202,12 @@ class Results:
             log.warning("results are not cleaned", error=str(error))
         while True:
             await asyncio.sleep(FLUSH_SECONDS)
-            with suppress(StoreUnavailable):  # which says so itself; the next time may do
+            try:
                 await self._flush()
+            except StoreUnavailable:
+                continue  # which says so itself; the next time may do
+            except Exception:
+                log.exception("unexpected error")
 
     async def _flush(self) -> None:
         """Write down all that is new. Those who come meanwhile are written together, thereafter."""

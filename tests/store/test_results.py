@@ -6,17 +6,20 @@ import asyncio
 import os
 import socket
 import time
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from sqlalchemy import delete
 
 from app.errors import StoreUnavailable
 from app.store import results as module
 from app.store.database import Database
 from app.store.objects import ANSWER_SECONDS
 from app.store.results import Result, Results
+from app.store.tables import results as results_table
+from tests.postgres import Postgres, running_postgres
 
 KEYS = [f"{number:064x}" for number in range(8)]
 JSON = "application/json"
@@ -26,12 +29,24 @@ FAR = 4_000_000_000_000
 Work = Callable[[Results], Coroutine[Any, Any, None]]
 
 
-@pytest.fixture
-def database(tmp_path: Path) -> Database:
-    """An empty one."""
-    found = Database(f"sqlite:///{tmp_path / 'a.db'}")
+@pytest.fixture(scope="module")
+def postgres() -> Iterator[Postgres]:
+    """A server for all tests."""
+    with running_postgres() as server:
+        yield server
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def database(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Database]:
+    """One without results."""
+    if request.param == "sqlite":
+        found = Database(f"sqlite:///{tmp_path / 'a.db'}")
+    else:
+        found = Database(request.getfixturevalue("postgres").url)
     found.migrate()
-    return found
+    found.do(lambda connection: connection.execute(delete(results_table)))
+    yield found
+    found.close()
 
 
 @pytest.fixture
