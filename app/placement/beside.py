@@ -13,6 +13,10 @@ MOST = 200
 """Neighbours beside which room is sought, the last ones; where there are more, it is also sought
 at the edges of all."""
 
+WILD = 3.0
+"""How bad a whole may become to stay within its room, over what is dense and of good proportions:
+a tray grows to five times its width between its neighbours, and no further."""
+
 
 def beside(
     taken: Floats,
@@ -28,7 +32,7 @@ def beside(
     keeps a ``gap``. Of the places to the right of each and before each, it is the one that makes
     the smallest and best proportioned whole, or is the nearest to where it stood, ``near``; in a
     row or a column, the one behind the last. If it can, it stays within ``room`` (4,), to the left
-    of others or behind them if need be.
+    of others or behind them if need be, unless that makes a bad whole.
 
     >>> beside(np.array([[0.0, 0.0, 1.0, 1.0]]), (1.0, 1.0), 0.5, "row")
     (2.0, 0.5)
@@ -58,14 +62,20 @@ def beside(
             [[left - gap - width, far], [left, far + gap + depth]],
         ]
     )
+    places = _from_corners(usual, size)
+    best, _ = _best(places[~_overlap(places, taken, gap)], whole, gap, near)
+    sizes = np.concatenate([taken[:, 2:] - taken[:, :2], [size]]) + gap
+    dense = float(sizes.prod(axis=1).sum())
+    most = max(WILD * dense, float(_cost(right - left, far - low, gap)))
     for corners in (usual, other) if near is None else (np.concatenate([usual, other]),):
         places = _from_corners(corners, size)
         places = places[~_overlap(places, taken, gap)]
         places = places[_fit(places, room)]
         if len(places):
-            return _best(places, whole, gap, near)
-    places = _from_corners(usual, size)
-    return _best(places[~_overlap(places, taken, gap)], whole, gap, near)
+            place, cost = _best(places, whole, gap, near)
+            if near is not None or cost <= most + TOUCHING:
+                return place
+    return best
 
 
 def overlaps(rectangle: Floats, others: Floats, gap: float = 0.0) -> bool:
@@ -84,18 +94,23 @@ def _from_corners(corners: Floats, size: Place) -> Floats:
     return np.column_stack([left, far - size[1], left + size[0], far])
 
 
-def _best(places: Floats, whole: Floats, gap: float, near: Place | None) -> Place:
+def _best(places: Floats, whole: Floats, gap: float, near: Place | None) -> tuple[Place, float]:
+    """The centre of the best of ``places`` (m, 4), and what it costs."""
     wide = np.maximum(places[:, 2], whole[2]) - np.minimum(places[:, 0], whole[0])
     deep = np.maximum(places[:, 3], whole[3]) - np.minimum(places[:, 1], whole[1])
     centers = (places[:, :2] + places[:, 2:]) / 2
-    if near is None:
-        aspect = np.maximum(wide, THIN) / np.maximum(deep, THIN)
-        cost = (wide + gap) * (deep + gap) * np.maximum(aspect / ASPECT, ASPECT / aspect) ** 0.7
-    else:
-        # A new place far away is as bad as a whole that is so much wider or deeper.
-        cost = np.hypot(*(centers - near).T) + wide + deep
-    x, y = centers[np.argmin(np.round(cost, 9))]
-    return float(x), float(y)
+    # A new place far away is as bad as a whole that is so much wider or deeper.
+    cost = _cost(wide, deep, gap) if near is None else np.hypot(*(centers - near).T) + wide + deep
+    best = np.argmin(np.round(cost, 9))
+    x, y = centers[best].tolist()
+    return (x, y), float(cost[best])
+
+
+def _cost(wide: Floats, deep: Floats, gap: float) -> Floats:
+    """How bad wholes of such widths and depths (m,) are: large, or out of proportion."""
+    aspect = np.maximum(wide, THIN) / np.maximum(deep, THIN)
+    out = np.maximum(aspect / ASPECT, ASPECT / aspect) ** 0.7
+    return np.asarray((wide + gap) * (deep + gap) * out)
 
 
 def _fit(places: Floats, room: Floats) -> Flags:

@@ -194,6 +194,18 @@ def test_another_notation_begins_anew() -> None:
     assert after.made.centers.tolist() == anew.made.centers.tolist()
 
 
+def test_a_tray_grows_between_its_neighbours_but_becomes_no_tower() -> None:
+    line = {"layout": {"constraints": [{"type": "row", "items": ["l", "t", "r"]}]}}
+    names = [f"i{number}" for number in range(20)]
+    before = Placed(items(tray("a", name="l"), tray("b"), tray("c", name="r"), **line))
+    for count in range(1, len(names) + 1):
+        groups = tray("a", name="l"), tray("b", *names[:count]), tray("c", name="r")
+        before = Placed(items(*groups, **line), before)
+        assert_in_order(before.program, before.made)
+    width, depth, _ = before.size("t")
+    assert max(width, depth) < 6 * min(width, depth)
+
+
 rectangles = st.lists(
     st.tuples(st.integers(-5, 5), st.integers(-5, 5), st.integers(1, 4), st.integers(1, 4)),
     min_size=1,
@@ -222,7 +234,7 @@ def test_a_place_is_within_the_room_that_there_is(
     across = side % 2 == 0
     if size[1 if across else 0] > (room[3] - room[1] if across else room[2] - room[0]):
         return
-    made = around(beside(taken, size, gap, "rows", room), size)
+    made = around(beside(taken, size, gap, "rows", room, near=(0.0, 0.0)), size)
     assert (made[:2] >= room[:2] - 1e-6).all()
     assert (made[2:] <= room[2:] + 1e-6).all()
 
