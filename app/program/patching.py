@@ -22,7 +22,7 @@ from app.settings import Settings
 
 MOST_OPERATIONS = 10_000
 
-MOST_COPIED = 200_000
+MOST_COPIED = 100_000
 """Values that the operations of one patch may copy and compare together."""
 
 DEEPEST = 200
