@@ -57,9 +57,10 @@ def names(media_type: str, accept: str | None) -> bool:
     >>> names("text/event-stream", "text/event-stream, image/png"), names("image/png", "*/*")
     (True, False)
     """
+    if accept is None or media_type not in accept.lower():
+        return False
     return any(
-        found.closeness(media_type) == 3 and found.quality > 0
-        for found in parse_accept(accept or "")
+        found.closeness(media_type) == 3 and found.quality > 0 for found in parse_accept(accept)
     )
 
 

@@ -131,7 +131,9 @@ def describe(call: str) -> dict[str, Any]:
         "responses": {
             200: {
                 "description": "The answer.",
-                "headers": headers("ETag", "Vary", "Content-Disposition", "Server-Timing"),
+                "headers": headers(
+                    "ETag", "Vary", "Content-Disposition", "Server-Timing", "Tubeloom-Cache"
+                ),
                 "content": contents(call),
             },
             304: {

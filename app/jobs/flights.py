@@ -75,7 +75,13 @@ class Flights(Generic[Found]):
 
         flight = _Flight(asyncio.create_task(do()), listeners)
         self._under_way[key] = flight
-        flight.work.add_done_callback(lambda _work: self._end(key, flight))
+
+        def landed(work: asyncio.Task[Found]) -> None:
+            self._end(key, flight)
+            if not work.cancelled():
+                work.exception()  # which nobody may be there to hear of
+
+        flight.work.add_done_callback(landed)
         return flight
 
     def _end(self, key: Hashable, flight: _Flight[Found]) -> None:
