@@ -8,7 +8,8 @@ from typing import Any
 from app.api.job_model import JobModel
 from app.api.schema import contents, documents, headers, problem
 
-_CALL = "jobs"
+_CALL = "render"
+"""Whose query starts a job: problems may be pictures there too."""
 
 _MISSING: Mapping[int, str] = {
     400: "The id, or a parameter, does not follow its schema.",

@@ -28,7 +28,13 @@ from app.api.revision_model import (
     RevisionModel,
     tag_of,
 )
-from app.api.stored_schema import JSON_PATCH, MERGE_PATCH, describe_change, describe_document
+from app.api.stored_schema import (
+    JSON_PATCH,
+    MERGE_PATCH,
+    describe_change,
+    describe_document,
+    describe_list,
+)
 from app.errors import NotStored
 from app.jobs.changing import Changer, Wanted, Wish
 from app.settings import Settings
@@ -55,10 +61,12 @@ class ListQuery(Query):
     """Which part of the list."""
 
     limit: int = Field(100, ge=1, le=MOST_LISTED)
-    after: str | None = Field(None, max_length=200, description="The part that follows this id.")
+    after: str | None = Field(
+        None, pattern=r"^[A-Za-z0-9._~-]{0,200}$", description="The part that follows this id."
+    )
 
 
-@router.get("")
+@router.get("", responses=describe_list())
 async def list_programs(
     request: Request, query: Annotated[ListQuery, QueryParameters()]
 ) -> ProgramList:
@@ -137,7 +145,7 @@ async def delete_program(request: Request, program: ProgramId) -> Response:
     return await _change(request, program, "delete", "delete", b"")
 
 
-@router.get("/{id}/revisions")
+@router.get("/{id}/revisions", responses=describe_list(404))
 async def list_revisions(request: Request, program: ProgramId) -> RevisionList:
     """The revisions that are kept, the newest first."""
     database: Database = request.app.state.database

@@ -65,9 +65,21 @@ def describe_document() -> dict[str, Any]:
     )
 
 
+def describe_list(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """What may go wrong with a list, and with these ``statuses`` besides."""
+    return {status: problem(_CALL, _WRONG[status]) for status in (400, *statuses, 503)}
+
+
 def describe_view(call: str) -> dict[str, Any]:
     """Of a ``call`` (render, layout, convert) that shows a stored program."""
-    names = ["ETag", "Vary", "Content-Disposition", "Server-Timing", "Tubeloom-Revision"]
+    names = [
+        "ETag",
+        "Vary",
+        "Content-Disposition",
+        "Server-Timing",
+        "Tubeloom-Cache",
+        "Tubeloom-Revision",
+    ]
     if call == "render":
         names.append("Tubeloom-Since")
     found = {
@@ -78,7 +90,7 @@ def describe_view(call: str) -> dict[str, Any]:
         },
         304: _UNCHANGED,
     }
-    return _described(found, {**_WRONG, **_WRONG_VIEW})
+    return _described(found, {**_WRONG, **_WRONG_VIEW}, call)
 
 
 def describe_events() -> dict[str, Any]:
@@ -106,8 +118,10 @@ def describe_change(call: str) -> dict[str, Any]:
     return described
 
 
-def _described(found: Mapping[int, Any], wrong: Mapping[int, str]) -> dict[str, Any]:
-    problems = {status: problem(_CALL, detail) for status, detail in wrong.items()}
+def _described(
+    found: Mapping[int, Any], wrong: Mapping[int, str], call: str = _CALL
+) -> dict[str, Any]:
+    problems = {status: problem(call, detail) for status, detail in wrong.items()}
     return {"response_model": None, "responses": {**found, **problems}}
 
 
