@@ -32,10 +32,11 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.svg
 	@touch $@
 
-$(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json $(VENV)/runtime.done
+$(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json clients/typescript/package-lock.json $(VENV)/runtime.done
 	tools/system-packages.sh test
 	$(PIP) install --require-hashes -r requirements-dev.lock
 	cd tests/node && npm ci --no-audit --no-fund --loglevel=error
+	cd clients/typescript && npm ci --no-audit --no-fund --loglevel=error
 	@touch $@
 
 $(VENV)/bench.done: requirements-bench.lock benchmarks/node/package-lock.json $(VENV)/dev.done
@@ -70,8 +71,9 @@ load: $(VENV)/bench.done  ## measure the service under load, for some twenty min
 pictures: setup-dev  ## draw the pictures of the docs anew
 	$(BIN)/python -m tools.pictures
 
-openapi: setup-dev  ## write openapi.json anew
+openapi: setup-dev  ## write openapi.json anew, and the types of the client for TypeScript
 	$(BIN)/tubeloom openapi > openapi.json
+	cd clients/typescript && npm run --silent generate
 
 palettes: setup-dev  ## compute the palettes anew
 	$(BIN)/python tools/palettes.py
@@ -80,4 +82,4 @@ lock:  ## resolve dependencies anew (needs uv)
 	tools/lock.sh
 
 clean:  ## remove everything that can be made again
-	rm -rf $(VENV) tests/node/node_modules benchmarks/node/node_modules .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks
+	rm -rf $(VENV) tests/node/node_modules benchmarks/node/node_modules clients/typescript/node_modules clients/typescript/dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks

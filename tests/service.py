@@ -97,12 +97,13 @@ def until(find: Callable[[], Found | None], seconds: float = PATIENCE_SECONDS) -
 
 @contextmanager
 def running_service(folder: Path, **settings: object) -> Iterator[Service]:
-    """A service with ``settings`` on a free port, warm."""
+    """A service with ``settings``, warm; on a free port unless ``port`` is among them."""
     log = folder / "service.log"
+    port = str(settings.pop("port", 0))
     environment = {f"TUBELOOM_{name.upper()}": str(value) for name, value in settings.items()}
     with log.open("wb") as sink:
         process = subprocess.Popen(
-            [sys.executable, "-m", "app", "serve", "--port", "0"],
+            [sys.executable, "-m", "app", "serve", "--port", port],
             env={
                 **os.environ,
                 "TUBELOOM_LOG_FORMAT": "json",

@@ -17,16 +17,28 @@ from tubeloom_client.problems import (
     Unreachable,
 )
 from tubeloom_client.program import Program
-from tubeloom_client.records import Changes, Deleted, JobState, Listed, Reset, Revision, Sets
+from tubeloom_client.records import (
+    Changes,
+    Current,
+    Deleted,
+    Happening,
+    JobState,
+    Listed,
+    Reset,
+    Revision,
+    Sets,
+)
 
 __all__ = [
     "Busy",
     "Changes",
     "Client",
+    "Current",
     "Deleted",
     "Document",
     "Fault",
     "Format",
+    "Happening",
     "Job",
     "JobCancelled",
     "JobFailed",

@@ -32,7 +32,7 @@ class Call(Generic[Answer]):
     headers: Mapping[str, str] = field(default_factory=dict)
     body: bytes | None = None
 
-    def request(self, client: httpx.Client | httpx.AsyncClient) -> httpx.Request:
+    def request(self, client: httpx.Client) -> httpx.Request:
         """The request, as ``client`` sends it."""
         return client.build_request(
             self.method, self.path, params=self.query, headers=self.headers, content=self.body
@@ -115,7 +115,7 @@ def step(program: str, way: str, etag: str | None) -> Call[Changed]:
 
 def delete(program: str, etag: str | None) -> Call[None]:
     """Remove a program."""
-    return Call("DELETE", _program(program), _nothing, [], _if_match(etag))
+    return Call("DELETE", _program(program), _nothing, [], {**_if_match(etag), **_once()})
 
 
 def revisions(program: str) -> Call[tuple[Revision, ...]]:
@@ -150,9 +150,11 @@ def start(
     return Call("POST", "/v1/jobs", _job, query, {**JSON, **_once()}, body_of(document))
 
 
-def start_stored(program: str, wanted: Format, options: RenderOptions) -> Call[JobState]:
+def start_stored(
+    program: str, wanted: Format, revision: int | None, options: RenderOptions
+) -> Call[JobState]:
     """Make a job of a render of a stored program."""
-    query = query_of(program=program, format=wanted, **options)
+    query = query_of(program=program, format=wanted, revision=revision, **options)
     return Call("POST", "/v1/jobs", _job, query, _once())
 
 

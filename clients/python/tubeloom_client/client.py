@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from types import TracebackType
 from typing import Any, Literal, Self, TypeVar, Unpack
 
@@ -16,7 +17,7 @@ from tubeloom_client.job import Job
 from tubeloom_client.layouts import Layout
 from tubeloom_client.options import Document, Format, RenderOptions
 from tubeloom_client.patience import Patience
-from tubeloom_client.problems import Busy, Problem, Unreachable, problem_of
+from tubeloom_client.problems import Busy, JobCancelled, Problem, Unreachable, problem_of
 from tubeloom_client.program import Program
 from tubeloom_client.records import JobState, Listed
 
@@ -128,15 +129,16 @@ class Client:
         """Make a job of a render, and wait for what it makes.
 
         ``progress`` hears how it goes on. Whatever ends the waiting early (an exception of
-        ``progress``, say, or the keyboard) cancels the job.
+        ``progress``, say, or the keyboard) cancels the job. Raises `JobFailed` or `JobCancelled`.
         """
         job = self.start(document, format=format, source=source, **options)
         try:
             return job.wait(progress)
-        except Problem:
+        except (JobCancelled, Problem):
             raise
         except BaseException:
-            job.cancel()
+            with suppress(Problem, Unreachable):
+                job.cancel()
             raise
 
     def send(self, call: Call[Answer]) -> Answer:
@@ -153,18 +155,17 @@ class Client:
     def events(self, path: str, after: str | None = None) -> Iterator[Event]:
         """Server-sent events, those after the one with the id ``after``; goes on by itself.
 
-        Ends where the service has nothing more to tell. Raises `Problem` or `Unreachable`.
+        Has no end of its own. Raises `Problem` or `Unreachable`.
         """
         patience, reader = Patience(self._patience), EventReader(after)
         while True:
             try:
                 with self._http.stream("GET", path, **reader.opening()) as response:
-                    if response.status_code == httpx.codes.NO_CONTENT:
-                        return
                     if response.is_error:
                         response.read()
                         raise problem_of(response)
                     for piece in response.iter_bytes():
+                        patience.take_heart()
                         for event in reader.feed(piece):
                             patience.restore()
                             yield event

@@ -7,6 +7,7 @@ knows; what it names must be there, unless it has a default.
 from __future__ import annotations
 
 import dataclasses
+from datetime import datetime
 from functools import lru_cache
 from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, cast, get_args, get_origin, get_type_hints
@@ -34,6 +35,8 @@ def _decode(kind: Any, value: Any) -> Any:
         if rest == [...]:
             return tuple(_decode(inner, each) for each in value)
         return tuple(_decode(each, one) for each, one in zip((inner, *rest), value, strict=True))
+    if kind is datetime:
+        return datetime.fromisoformat(value)
     return float(value) if kind is float else value
 
 

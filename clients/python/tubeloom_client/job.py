@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from tubeloom_client import calls
+from tubeloom_client.problems import JobCancelled, JobFailed
 from tubeloom_client.records import JobState, job_after
 
 if TYPE_CHECKING:
@@ -43,6 +44,10 @@ class Job:
         for state in self.follow():
             if progress is not None:
                 progress(state)
+            if state.state == "cancelled":
+                raise JobCancelled(f"Job {self.id} has been cancelled.")
+            if state.state == "failed":
+                raise JobFailed(state.problem or {})
         return self.result()
 
     def result(self) -> bytes:

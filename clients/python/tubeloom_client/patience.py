@@ -21,8 +21,12 @@ class Patience:
 
     def restore(self) -> None:
         """Start anew: something has gone well."""
-        self._end: float | None = None
+        self.take_heart()
         self._pause = FIRST_PAUSE_SECONDS
+
+    def take_heart(self) -> None:
+        """Be as patient as in the beginning: somebody has answered, if only that."""
+        self._end: float | None = None
 
     def pause_after(self, error: Busy | httpx.TransportError) -> float:
         """Seconds to wait before the next try.

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
 from tubeloom_client import calls
 from tubeloom_client.calls import Call
+from tubeloom_client.job import Job
 from tubeloom_client.layouts import Layout
 from tubeloom_client.options import Document, Format, RenderOptions
 from tubeloom_client.problems import LostRace
@@ -94,11 +95,23 @@ class Program:
         """The numbers of the layout."""
         return self._client.send(calls.layout_stored(self.id, patches, revision))
 
-    def watch(self, *, after: int | None = None) -> Iterator[Happening]:
+    def start(
+        self,
+        *,
+        format: Format = "png",  # noqa: A002 - as the service calls it
+        revision: int | None = None,
+        **options: Unpack[RenderOptions],
+    ) -> Job:
+        """Make a job of a render, and do not wait for it."""
+        call = calls.start_stored(self.id, format, revision, options)
+        return Job(self._client, self._client.send(call).id)
+
+    def watch(self, *, after: int | None = None) -> Generator[Happening, None, None]:
         """What happens to the program, from now on or from what came after a revision.
 
-        Goes on by itself where the connection breaks, without missing a revision; ends when the
-        program is deleted.
+        Where nothing is given for ``after``, the first thing told is `Current`: every change from
+        then on is told. Goes on by itself where the connection breaks, without missing a revision;
+        ends when the program is deleted.
         """
         last = None if after is None else str(after)
         for event in self._client.events(calls.watched(self.id), last):

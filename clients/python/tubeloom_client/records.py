@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from datetime import datetime
 from typing import Any, Literal, TypeAlias
 
 from tubeloom_client.decoding import decode
@@ -33,7 +35,11 @@ class Listed:
 
     id: str
     revision: int
-    name: str | None = None
+    name: str | None
+    item_count: int
+    hyperedge_count: int
+    created_at: datetime
+    updated_at: datetime
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,12 +60,18 @@ class Stored:
 
 @dataclass(frozen=True, slots=True)
 class Revision:
-    """One state of a stored program, and what led to it."""
+    """One state of a stored program, and what led to it: put, patch, edit, undo or redo."""
 
     revision: int
     cause: str
+    name: str | None
+    item_count: int
+    hyperedge_count: int
     digest: str
     changes: Changes
+    can_undo: bool
+    can_redo: bool
+    created_at: datetime
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +80,13 @@ class Changed:
 
     revision: Revision
     etag: str
+
+
+@dataclass(frozen=True, slots=True)
+class Current:
+    """Watching begins: the program is at this revision, and whatever comes next will be told."""
+
+    revision: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,19 +103,20 @@ class Reset:
     revision: int
 
 
-Happening: TypeAlias = Revision | Deleted | Reset
+Happening: TypeAlias = Current | Revision | Deleted | Reset
 """What a watcher of a program hears."""
 
 
 @dataclass(frozen=True, slots=True)
 class JobState:
-    """How far a job is; ``share`` goes from 0 to 1, ``problem`` says why it failed."""
+    """How far a job is; ``share`` goes from 0 to 1, ``problem`` (RFC 9457) says why it failed."""
 
     id: str
     state: Literal["waiting", "running", "done", "failed", "cancelled"]
     stage: str | None = None
     share: float = 0.0
     attempts: int = 0
+    problem: Mapping[str, Any] | None = None
 
     @property
     def is_over(self) -> bool:
@@ -107,6 +127,8 @@ class JobState:
 def happening_of(event: Event) -> Happening | None:
     """What an event of a program tells; None for what this client does not know."""
     match event.name:
+        case "current":
+            return decode(Current, event.data)
         case "revision":
             return decode(Revision, event.data)
         case "deleted":
@@ -123,7 +145,7 @@ def job_after(state: JobState, event: Event) -> JobState:
         case "progress":
             share, stage = event.data["share"], event.data.get("stage")
             return replace(state, state="running", share=share, stage=stage)
-        case "done" | "failed" | "cancelled" as end:
-            return replace(state, state=end, share=1.0 if end == "done" else state.share)
+        case "done" | "failed" | "cancelled":
+            return decode(JobState, event.data)
         case _:
             return state
