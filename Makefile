@@ -30,6 +30,7 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	@echo "Compiling kernels, once: some two minutes …"
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.glb
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.svg
+	$(BIN)/tubeloom render examples/paper-curves.json -o $(VENV)/paper.glb
 	@touch $@
 
 $(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json clients/typescript/package-lock.json $(VENV)/runtime.done

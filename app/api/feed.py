@@ -22,7 +22,7 @@ from app.errors import NotStored, Overloaded, StoreUnavailable
 from app.settings import Settings
 from app.store import programs
 from app.store.database import Database
-from app.store.programs import Record
+from app.store.records import Record
 
 log = structlog.get_logger("tubeloom.feed")
 

@@ -11,7 +11,7 @@ from app.answers import ANYTHING
 from app.api.problems import PreconditionFailedError, PreconditionRequiredError
 from app.api.revision_model import tag_of
 from app.settings import Settings
-from app.store.programs import Record
+from app.store.records import Record
 
 _STRONG_TAG = re.compile(r'(?<![/\w])"([\x21\x23-\x7e\x80-\xff]*)"')
 

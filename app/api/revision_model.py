@@ -8,7 +8,7 @@ from typing import Self
 from pydantic import BaseModel, Field
 
 from app.program.changes import Changes, Differences
-from app.store.programs import Listed, Record
+from app.store.records import Listed, Record
 
 
 class Differing(BaseModel):

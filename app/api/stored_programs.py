@@ -40,7 +40,7 @@ from app.jobs.changing import Changer, Wanted, Wish
 from app.settings import Settings
 from app.store import programs
 from app.store.database import Database
-from app.store.programs import Cause, Content, Record
+from app.store.records import Cause, Content, Record
 from app.store.requests import Reply
 
 router = APIRouter(prefix="/v1/programs", tags=["stored programs"])

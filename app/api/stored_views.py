@@ -29,7 +29,7 @@ from app.formats.registry import FORMATS
 from app.program.changes import combined
 from app.store import programs
 from app.store.database import Database
-from app.store.programs import Content
+from app.store.records import Content
 
 router = APIRouter(prefix="/v1/programs", tags=["stored programs"], default_response_class=Response)
 

@@ -15,7 +15,7 @@ from app.jobs.executor import WorkerPool
 from app.settings import Settings
 from app.store import programs, requests
 from app.store.database import Connection, Database
-from app.store.programs import Content, Head, Record
+from app.store.records import Cause, Content, Head, Record
 from app.store.requests import Reply
 
 ATTEMPTS = 20
@@ -37,7 +37,7 @@ class Wish:
 
     program: str
     wanted: Wanted
-    cause: programs.Cause
+    cause: Cause
     check: Callable[[Record | None], None]
     reply: Callable[[Record, bool], Reply]
     request: str | None = None

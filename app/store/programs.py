@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 from sqlalchemy import Connection, Row, Select, delete, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
@@ -18,66 +17,16 @@ from sqlalchemy.exc import IntegrityError
 from app.answers import Revised
 from app.errors import Outdated
 from app.program.changes import Changes
+from app.store.records import Cause, Content, Head, Listed, Record
 from app.store.tables import programs, revisions
-
-Cause: TypeAlias = Literal["put", "patch", "edit", "undo", "redo", "delete"]
 
 _LEVEL = 1
 """Of deflating: documents become many times smaller, at some 100 kB in a millisecond."""
-
 
 _LONGEST_NAME = 500
 
 _AT_A_TIME = 500
 """Names in one query."""
-
-
-@dataclass(frozen=True, slots=True)
-class Record:
-    """What is known of a revision, but for its content. Times are milliseconds since 1970."""
-
-    program: str
-    number: int
-    cause: Cause
-    name: str | None
-    items: int
-    hyperedges: int
-    digest: str
-    changes: Changes
-    undo_to: int | None
-    redo_to: int | None
-    created_at: int
-
-
-@dataclass(frozen=True, slots=True)
-class Content:
-    """A revision with its document in canonical form, and its layout."""
-
-    record: Record
-    document: bytes
-    layout: bytes
-
-
-@dataclass(frozen=True, slots=True)
-class Listed:
-    """A program in the list of all of them. Times are milliseconds since 1970."""
-
-    id: str
-    revision: int
-    name: str | None
-    items: int
-    hyperedges: int
-    created_at: int
-    updated_at: int
-
-
-@dataclass(frozen=True, slots=True)
-class Head:
-    """The newest revision's number, and whether the program is deleted."""
-
-    revision: int
-    is_deleted: bool
-
 
 _RECORD: tuple[Any, ...] = (
     revisions.c.program,

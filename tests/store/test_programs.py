@@ -15,7 +15,7 @@ from app.errors import Outdated
 from app.program.changes import Changes, Differences
 from app.store import programs, requests
 from app.store.database import Database
-from app.store.programs import Head, Record
+from app.store.records import Head, Record
 from app.store.requests import Reply
 from tests.postgres import Postgres, running_postgres
 
