@@ -20,6 +20,10 @@ elif [ "${1:-}" = bench ]; then
 elif ! has_library libOSMesa.so && ! has_library libEGL_mesa; then
   lacks+=(osmesa)
 fi
+# Final pictures do not come without it.
+if [ "${1:-}" = "" ] && ! has_library libatomic.so.1; then
+  lacks+=(atomic)
+fi
 # Final pictures are four times as quick with it; they come without it too.
 if [ "${1:-}" = "" ] && ! ldconfig -p 2>/dev/null | grep -qE 'libLLVM(-|\.so\.)(1[7-9]|2[0-9])'; then
   lacks+=(llvm)
@@ -36,7 +40,7 @@ packages=()
 for part in "${lacks[@]}"; do
   case $part in
     # Mesa 25.1 and later have no OSMesa; EGL draws there.
-    osmesa) if [ $apt = no ] || has_package libosmesa6; then packages+=(libosmesa6); else packages+=(libegl1 libegl-mesa0 libgl1); fi ;;
+    osmesa) if [ $apt = no ] || has_package libosmesa6; then packages+=(libosmesa6); else packages+=(libegl1 libegl-mesa0 libgl1 libxrender1); fi ;;
     llvm)
       for version in 21 20 19 18 17; do
         if [ $apt = no ] || has_package libllvm$version; then
@@ -46,7 +50,8 @@ for part in "${lacks[@]}"; do
         fi
       done
       ;;
-    egl) packages+=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri) ;;
+    atomic) packages+=(libatomic1) ;;
+    egl) packages+=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri libxrender1) ;;
     chromium) packages+=(chromium) ;;
     postgres) packages+=(postgresql) ;;
     graphviz) packages+=(graphviz) ;;
