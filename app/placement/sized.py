@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from app.errors import DocumentTooLarge, Fault, InconsistentDocument, pointer
+from app.errors import DocumentError, DocumentTooLarge, Fault, InconsistentDocument, pointer
 from app.notations.notation import ItemStyle
 from app.placement.family import Family
 from app.placement.fitting import fit, resized, shape_of, written_extent
@@ -157,19 +157,21 @@ def alone(program: Program, family: Family, styles: Sequence[ItemStyle]) -> list
     sized: list[Sized] = []
     faults: list[Fault] = []
     for number, item in enumerate(program.items):
-        place = pointer("items", number, "shape", "tree")
         try:
             has_children = bool(family.children[number])
             sized.append(_alone(item, styles[number], has_children, program.style.labels))
         except InconsistentDocument as error:
-            faults.extend(Fault(place + fault.pointer, fault.detail) for fault in error.faults)
+            faults.extend(_in_tree_of(number, error))
         except DocumentTooLarge as error:
-            raise DocumentTooLarge(
-                [Fault(place + fault.pointer, fault.detail) for fault in error.faults]
-            ) from None
+            raise DocumentTooLarge(_in_tree_of(number, error)) from None
     if faults:
         raise InconsistentDocument(first(faults))
     return sized
+
+
+def _in_tree_of(number: int, error: DocumentError) -> list[Fault]:
+    place = pointer("items", number, "shape", "tree")
+    return [Fault(place + fault.pointer, fault.detail) for fault in error.faults]
 
 
 def _alone(item: Item, style: ItemStyle, has_children: bool, labelled: bool) -> Sized:
