@@ -16,7 +16,10 @@ MEGABYTE = 2**20
 
 def main(amount: int = 1000, seed: int = 1) -> int:
     """Attack a fresh service and print what came of it; the exit status is the number of faults."""
-    with tempfile.TemporaryDirectory() as folder, running_service(Path(folder)) as service:
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        running_service(Path(folder), workers=2) as service,
+    ):
         began = time.perf_counter()
         report = attack(service, all_hostile(amount, seed))
         seconds = time.perf_counter() - began

@@ -80,7 +80,7 @@ def measure(plan: Plan) -> Figures:
     busy = os.getloadavg()[0]
     with (
         tempfile.TemporaryDirectory() as folder,
-        running_service(Path(folder)) as service,
+        running_service(Path(folder), workers=2) as service,
     ):
         highest, steady, memory, overload, recovery = asyncio.run(_under_load(service, plan))
         refusals = sorted(
@@ -130,9 +130,16 @@ def main() -> int:
     """Measure and print; the exit status tells whether there were errors where none may be."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--seconds", type=float, default=900.0, help="at four fifths of the most")
+    parser.add_argument(
+        "--share",
+        type=float,
+        default=SHARE,
+        help="of the highest rate; that of eight askers in turn is more than what random arrivals "
+        "allow without a long line",
+    )
     parser.add_argument("--quick", action="store_true", help="some seconds for everything")
     given = parser.parse_args()
-    plan = QUICK if given.quick else Plan(15.0, given.seconds, 15.0, 12.0)
+    plan = QUICK if given.quick else Plan(15.0, given.seconds, 15.0, 12.0, given.share)
     figures = measure(plan)
     print(load_tables.tables(figures))
     return 1 if load_tables.errors(figures) else 0

@@ -49,7 +49,7 @@ def _steady(figures: Figures) -> str:
     steady = figures.steady
     lasted = max(at for _, at, _ in steady.all)
     title = (
-        f"**At four fifths of the highest rate, {figures.highest:.1f} a second**: "
+        f"**Steady** (eight askers in turn reach {figures.highest:.1f} a second): "
         f"{len(steady.all)} questions in {lasted:.0f} s, {len(steady.all) / lasted:.1f} a second, "
         f"{len(steady.all) - steady.count(200)} errors"
     )

@@ -19,7 +19,7 @@ PROGRAMS = ["id3-clause-1", "id3-clause-2"]
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     """A client of a service that has been asked for everything once by each worker."""
-    with running_service(tmp_path_factory.mktemp("service")) as running:
+    with running_service(tmp_path_factory.mktemp("service"), workers=2) as running:
         service: Service = running
         with service.client() as client:
             yield client

@@ -198,7 +198,7 @@ def main() -> None:
         for name, url in databases.items():
             with tempfile.TemporaryDirectory() as folder:
                 given = {} if url is None else {"database": url}
-                with running_service(Path(folder), **given) as service:
+                with running_service(Path(folder), workers=2, **given) as service:
                     print(race(service, asked.races).line(name), flush=True)
         for name, url in databases.items():
             print(survive(asked.writes, asked.kills, url).line(name), flush=True)

@@ -97,10 +97,14 @@ def until(find: Callable[[], Found | None], seconds: float = PATIENCE_SECONDS) -
 
 @contextmanager
 def running_service(folder: Path, **settings: object) -> Iterator[Service]:
-    """A service with ``settings``, warm; on a free port unless ``port`` is among them."""
+    """A service with ``settings``, warm; on a free port unless ``port`` is among them.
+
+    It has one worker if they say nothing else: each takes seconds to start.
+    """
     log = folder / "service.log"
     port = str(settings.pop("port", 0))
-    environment = {f"TUBELOOM_{name.upper()}": str(value) for name, value in settings.items()}
+    asked = {"workers": 1} | settings
+    environment = {f"TUBELOOM_{name.upper()}": str(value) for name, value in asked.items()}
     with log.open("wb") as sink:
         process = subprocess.Popen(
             [sys.executable, "-m", "app", "serve", "--port", port],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -41,6 +42,9 @@ from tests.placement.standing_rules import assert_in_order
 from tests.program.edit_sequences import Json, as_bytes, edits, programs, sequences
 
 SETTINGS = Settings()
+
+SEQUENCES = int(os.environ.get("EDIT_SEQUENCES", "10"))
+"""Random ones for each property; a few hundred find what these may miss."""
 
 
 @dataclass(frozen=True)
@@ -272,7 +276,7 @@ def assert_kept(before: Revision, after: Revision) -> None:
     )
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=SEQUENCES)
 @given(st.data())
 def test_whatever_an_edit_does_not_concern_keeps_still(data: st.DataObject) -> None:
     revision = Revision.first(data.draw(programs()))
@@ -287,7 +291,7 @@ def test_whatever_an_edit_does_not_concern_keeps_still(data: st.DataObject) -> N
         revision = after
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=2 * SEQUENCES)
 @given(sequences(placed=False))
 def test_after_edits_everything_stands_in_order(made: tuple[Program, tuple[Json, ...]]) -> None:
     program, done = made
@@ -466,7 +470,7 @@ def nodes(body: bytes) -> dict[str, Any]:
     return found
 
 
-@settings(deadline=None, max_examples=8)
+@settings(deadline=None, max_examples=SEQUENCES // 3)
 @given(sequences(most=3))
 def test_a_scene_of_what_changed_makes_the_old_scene_the_new_one(
     made: tuple[Program, tuple[Json, ...]],

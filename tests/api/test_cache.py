@@ -56,7 +56,7 @@ def test_the_same_question_at_the_same_time_is_worked_on_once(service: Service) 
 
 
 def test_who_leaves_does_not_end_what_another_waits_for(service: Service) -> None:
-    document = large_program(1203)
+    document = large_program(803)
     with ThreadPoolExecutor(1) as background, service.client() as other, service.client() as third:
         stays = background.submit(other.post, "/v1/render", content=document)
         with pytest.raises(httpx.ReadTimeout):

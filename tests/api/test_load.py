@@ -18,7 +18,7 @@ from tests.service import (
     until,
 )
 
-LARGE = large_program(1500)
+LARGE = large_program(1000)
 
 
 def another(document: bytes, number: int = 1) -> bytes:

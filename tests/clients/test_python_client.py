@@ -300,7 +300,7 @@ def test_a_job_is_followed_over_the_death_of_the_service(tmp_path: Path) -> None
     port = free_port()
     with Client(f"http://127.0.0.1:{port}", patience=PATIENCE_SECONDS) as client:
         with running_service(tmp_path, workers=1, port=port) as service:
-            wanted = {"quality": "final", "width": 320, "height": 240, "samples": 128}
+            wanted = {"quality": "final", "width": 320, "height": 240, "samples": 64}
             job = client.start(SMALL, **wanted)  # type: ignore[arg-type]
             pictures: Queue[bytes] = Queue()
             states: list[JobState] = []

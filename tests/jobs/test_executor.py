@@ -19,7 +19,7 @@ from app.settings import Settings
 from tests.service import SMALL, large_program, wide_program
 
 DOCUMENT = json.dumps(SMALL).encode()
-LARGE = large_program(1500)
+LARGE = large_program(1000)
 
 
 Test = Callable[[WorkerPool], Coroutine[Any, Any, None]]
