@@ -108,6 +108,11 @@ class Settings(BaseSettings):
     job_attempts: int = Field(
         3, ge=1, description="So often is a work begun whose process dies over it."
     )
+    job_lease_seconds: float = Field(
+        12.0,
+        ge=2,
+        description="So long are jobs of a service that was killed left to it, lest it still live.",
+    )
     job_result_hours: float = Field(24.0, gt=0, description="What a job made is kept so long.")
     max_jobs_waiting: int = Field(1_000, ge=0, description="Jobs that nobody works on yet.")
     dask_scheduler: str = Field(

@@ -6,6 +6,7 @@ import json
 import os
 import random
 import re
+import secrets
 import subprocess
 import sys
 import time
@@ -96,10 +97,11 @@ def until(find: Callable[[], Found | None], seconds: float = PATIENCE_SECONDS) -
 
 
 @contextmanager
-def running_service(folder: Path, **settings: object) -> Iterator[Service]:
-    """A service with ``settings``, warm; on a free port unless ``port`` is among them.
+def running_service(folder: Path, *, warm: bool = True, **settings: object) -> Iterator[Service]:
+    """A service with ``settings``; on a free port unless ``port`` is among them.
 
-    It has one worker if they say nothing else: each takes seconds to start.
+    It has one worker if they say nothing else: each takes seconds to start. Those are waited for,
+    unless it need not be ``warm``.
     """
     log = folder / "service.log"
     port = str(settings.pop("port", 0))
@@ -122,7 +124,7 @@ def running_service(folder: Path, **settings: object) -> Iterator[Service]:
         assert isinstance(found, re.Match), log.read_text()
         service = Service(found[1], process, log)
         with service.client() as client:
-            until(lambda: _all_warm(client))
+            until(lambda: not warm or _all_warm(client))
         yield service
     finally:
         process.terminate()
@@ -142,11 +144,20 @@ SMALL: dict[str, Any] = {
 """A program that is quick to render."""
 
 
+def fresh(name: str) -> str:
+    """A name that nobody has used: what was answered to others is no answer to who uses it."""
+    return f"{name} {secrets.token_hex(8)}"
+
+
 def large_program(items: int) -> bytes:
-    """A program that keeps a worker busy: so many labels, and a relation of each three of them."""
+    """A program that keeps a worker busy: so many labels, and a relation of each three of them.
+
+    Each call gives another, which no service has seen.
+    """
     names = [f"{number:05}" for number in range(items)]
     return json.dumps(
         {
+            "name": fresh("Large"),
             "items": [{"id": name, "label": name} for name in names],
             "hyperedges": [
                 {"id": first, "attachments": [{"item": first}, {"item": second}, {"item": third}]}
@@ -157,11 +168,12 @@ def large_program(items: int) -> bytes:
 
 
 def wide_program(hyperedges: int) -> bytes:
-    """A program whose scene is large: long tubes across a thousand items."""
+    """A program whose scene is large: long tubes across a thousand items. None is like another."""
     choices = random.Random(1)
     names = [str(number) for number in range(1000)]
     return json.dumps(
         {
+            "name": fresh("Wide"),
             "items": [{"id": name} for name in names],
             "hyperedges": [
                 {

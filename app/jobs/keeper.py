@@ -33,9 +33,9 @@ from app.store.results import Results
 
 log = structlog.get_logger("tubeloom.jobs")
 
-LEASE_SECONDS = 12.0
 PULSE_SECONDS = 1.0
-"""Between two notes of how jobs go on, which renew their leases too."""
+"""Between two notes of how jobs go on, which renew their leases too: those last twice as long at
+least."""
 
 LOOK_SECONDS = 1.0
 """Between two looks for jobs that other services put in line, or left."""
@@ -54,6 +54,7 @@ class Keeper:
     ) -> None:
         self._settings, self._database, self._results = settings, database, results
         self._crew = crew
+        self._lease_seconds = settings.job_lease_seconds
         self._name = secrets.token_hex(16)
         self._running: dict[str, Running] = {}
         self.listeners = Listeners()
@@ -114,7 +115,7 @@ class Keeper:
         lost = failure_text(WorkerLost(lost_after(most)))
         claimed = await self._database.write(
             lambda connection: leases.claim(
-                connection, self._name, LEASE_SECONDS, slots, at_work, most, lost
+                connection, self._name, self._lease_seconds, slots, at_work, most, lost
             )
         )
         self.listeners.tell(claimed.given_up, None)
@@ -231,7 +232,12 @@ class Keeper:
             asked = {digest: frozenset(running.jobs) for digest, running in self._running.items()}
             try:
                 left = await self._database.write(
-                    partial(leases.pulse, by=self._name, lease_seconds=LEASE_SECONDS, shares=shares)
+                    partial(
+                        leases.pulse,
+                        by=self._name,
+                        lease_seconds=self._lease_seconds,
+                        shares=shares,
+                    )
                 )
             except StoreUnavailable:
                 continue

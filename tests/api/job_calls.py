@@ -7,7 +7,7 @@ from typing import Any
 
 import httpx
 
-from tests.service import until
+from tests.service import fresh, until
 
 OVER = {"done", "failed", "cancelled"}
 
@@ -19,9 +19,9 @@ LONG = "format=png&quality=final&width=320&height=240&samples=65536"
 
 
 def program(name: str) -> dict[str, Any]:
-    """A small program that no other test asks for."""
+    """A small program that nobody has asked for; each call gives another."""
     return {
-        "name": name,
+        "name": fresh(name),
         "items": [{"id": "x"}, {"id": "y", "shape": {"type": "sphere"}}, {"id": "z"}],
         "hyperedges": [{"id": "e", "attachments": [{"item": "x"}, {"item": "y"}, {"item": "z"}]}],
     }

@@ -31,7 +31,7 @@ def test_the_last_event_is_what_a_plain_request_gets(client: httpx.Client) -> No
 def test_progress_rises_from_nothing_to_the_end(client: httpx.Client) -> None:
     told = [
         event.data
-        for event in stream(client, "format=glb", large_program(1000))
+        for event in stream(client, "format=glb", large_program(200))
         if event.name == "progress"
     ]
     shares = [news["share"] for news in told]

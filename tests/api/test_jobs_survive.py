@@ -4,17 +4,57 @@ from __future__ import annotations
 
 import json
 import signal
+from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
-from tests.api.job_calls import LONG, PICTURE, at_work, over, program, start, state
-from tests.service import Service, running_service, until
+import pytest
 
-SECONDS = "format=png&quality=final&width=320&height=240&samples=96"
+from tests.api.job_calls import LONG, PICTURE, at_work, over, program, start, state
+from tests.service import Service, gone, running_service, until
+
+SECONDS = "format=png&quality=final&width=96&height=72&samples=96"
 """A render that takes some seconds, so that there is time to disturb it."""
 
 
-def test_a_job_whose_worker_is_killed_is_done_all_the_same(service: Service) -> None:
-    document = program("killed")
+class Home:
+    """A service that may be started again, with all that it had stored."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._running = ExitStack()
+        self.service = self._started(warm=True)
+
+    def start_again(self) -> Service:
+        """Another service in place of this one, which ends in good order if it is still there.
+
+        Only its workers for jobs are of use, so no others are waited for.
+        """
+        self.end()
+        self.service = self._started(warm=False)
+        return self.service
+
+    def end(self) -> None:
+        """In good order."""
+        self._running.close()
+
+    def _started(self, *, warm: bool) -> Service:
+        starting = running_service(
+            self._folder, warm=warm, workers=1, job_attempts=2, job_lease_seconds=3
+        )
+        return self._running.enter_context(starting)
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Home]:
+    """A service of this module's own: whoever else shared it would see it die."""
+    found = Home(tmp_path_factory.mktemp("home"))
+    yield found
+    found.end()
+
+
+def test_a_job_whose_worker_is_killed_is_done_all_the_same(home: Home) -> None:
+    service, document = home.service, program("killed")
     with service.client() as client:
         spent = service.spent()
         job = start(client, SECONDS, document)
@@ -28,9 +68,9 @@ def test_a_job_whose_worker_is_killed_is_done_all_the_same(service: Service) -> 
         assert contents[0] == contents[1]
 
 
-def test_a_job_whose_workers_all_die_fails(tmp_path: Path) -> None:
-    strict = running_service(tmp_path, workers=1, job_attempts=2)
-    with strict as service, service.client() as client:
+def test_a_job_whose_workers_all_die_fails(home: Home) -> None:
+    service = home.service
+    with service.client() as client:
         spent = service.spent()
         job = start(client, LONG, program("killed twice"))
         for attempt in (1, 2):
@@ -43,16 +83,18 @@ def test_a_job_whose_workers_all_die_fails(tmp_path: Path) -> None:
         assert client.get("/healthz").status_code == 200
 
 
-def test_a_job_outlives_the_service_that_is_killed_and_started_again(tmp_path: Path) -> None:
-    with running_service(tmp_path, workers=1) as service:
-        with service.client() as client:
-            jobs = [start(client, SECONDS, program("left behind")) for _ in range(2)]
-            at_work(client, jobs[0])
-            done = start(client, PICTURE, program("left waiting"))
-        service.process.send_signal(signal.SIGKILL)
-        service.process.wait()
-    with running_service(tmp_path, workers=1) as service, service.client() as client:
-        found = [over(client, job) for job in (*jobs, done)]
+def test_a_job_outlives_the_service_that_is_killed_and_its_workers_do_not(home: Home) -> None:
+    killed, document = home.service, program("left behind")
+    with killed.client() as client:
+        jobs = [start(client, SECONDS, document) for _ in range(2)]
+        at_work(client, jobs[0])
+        waiting = start(client, PICTURE, program("left waiting"))
+    workers = killed.workers()
+    assert len(workers) == 2
+    killed.process.send_signal(signal.SIGKILL)
+    until(lambda: all(gone(worker) for worker in workers), seconds=10)
+    with home.start_again().client() as client:
+        found = [over(client, job) for job in (*jobs, waiting)]
         assert [(each["state"], each["attempts"]) for each in found] == [
             ("done", 2),
             ("done", 2),
@@ -61,11 +103,11 @@ def test_a_job_outlives_the_service_that_is_killed_and_started_again(tmp_path: P
         assert len({client.get(f"{job}/result").content for job in jobs}) == 1
 
 
-def test_a_service_that_ends_in_good_order_leaves_its_jobs_to_the_next(tmp_path: Path) -> None:
-    with running_service(tmp_path, workers=1) as service, service.client() as client:
+def test_a_service_that_ends_in_good_order_leaves_its_jobs_to_the_next(home: Home) -> None:
+    with home.service.client() as client:
         job = start(client, SECONDS, program("left in order"))
         at_work(client, job)
-    with running_service(tmp_path, workers=1) as service, service.client() as client:
+    with home.start_again().client() as client:
         assert state(client, job)["state"] in {"waiting", "running"}
         found = over(client, job)
         assert (found["state"], found["attempts"]) == ("done", 1)
