@@ -39,7 +39,8 @@ def test_every_format_is_listed(client: httpx.Client) -> None:
 def test_every_format_of_scenes_is_answered_as_it_says(
     client: httpx.Client, scene: SceneFormat
 ) -> None:
-    response = client.post("/v1/render", json=SMALL, headers={"accept": scene.media_type})
+    query = "/v1/render?width=160&height=120&frames=3"
+    response = client.post(query, json=SMALL, headers={"accept": scene.media_type})
     assert response.status_code == 200
     assert response.headers["content-type"] == scene.media_type
     assert f'.{scene.value}"' in response.headers["content-disposition"]

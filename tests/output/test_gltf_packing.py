@@ -213,7 +213,7 @@ def test_a_crowd_is_written_as_nodes_that_are_merged(packing: Packing) -> None:
         "normals and colours"
     )
     for name, node in hyperedges_of(usual).items():
-        assert one[name][0] == pytest.approx(other[name][0], abs=2 * MOVED * (node.radius or 0))
+        assert np.abs(one[name][0] - other[name][0]).max() <= 2 * MOVED * (node.radius or 0) + 1e-6
     camera, expected = crowded.camera, usual.camera
     assert camera.position == pytest.approx(expected.position, rel=1e-3)
     assert crowded.bounds == pytest.approx(usual.bounds, abs=0.01)
@@ -434,7 +434,7 @@ for (const path of process.argv.slice(2)) {
   for (const tube of tubes) {
     const { index, attributes: { position } } = tube.geometry;
     const corners = [0, 1, 2].map(() => new Vector3());
-    for (let face = 0; face < index.count; face += 3 * 37) {
+    for (let face = 0; face < index.count; face += 3 * 307) {
       corners.forEach((corner, k) => {
         corner.fromBufferAttribute(position, index.getX(face + k));
         tube.localToWorld(corner);
