@@ -21,6 +21,7 @@ from app.output.media import SceneFormat
 from app.settings import Settings
 
 if TYPE_CHECKING:
+    from app.jobs.launch import Launched
     from app.layout import Progress
     from app.output.effort import Effort
 
@@ -58,6 +59,19 @@ main.add_command(keys)
 @click.option("--workers", type=click.IntRange(1, 256), help="Processes that do the work.")
 def serve(host: str | None, port: int | None, workers: int | None) -> None:
     """Serve over HTTP. What is left out comes from TUBELOOM_… in the environment."""
+    from app.jobs.launch import launched
+
+    given = {"host": host, "port": port, "workers": workers}
+    settings = Settings.model_validate(
+        Settings().model_dump()
+        | {name: value for name, value in given.items() if value is not None}
+    )
+    # They import what they need while this process does the same.
+    with launched(settings.workers) as processes:
+        _serve(settings, processes)
+
+
+def _serve(settings: Settings, processes: list[Launched]) -> None:
     import socket
 
     import uvicorn
@@ -66,13 +80,8 @@ def serve(host: str | None, port: int | None, workers: int | None) -> None:
     from app.api.journal import configure_logging
     from app.main import create_app
 
-    given = {"host": host, "port": port, "workers": workers}
-    settings = Settings.model_validate(
-        Settings().model_dump()
-        | {name: value for name, value in given.items() if value is not None}
-    )
     configure_logging(settings.log_format)
-    app = create_app(settings)
+    app = create_app(settings, processes)
 
     class Server(uvicorn.Server):
         async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:

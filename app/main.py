@@ -39,6 +39,7 @@ from app.jobs.crew import crew_of
 from app.jobs.desk import Desk
 from app.jobs.executor import WorkerPool
 from app.jobs.keeper import Keeper
+from app.jobs.launch import Launched
 from app.settings import Settings
 from app.settings import settings as settings_of_process
 from app.store.database import Database
@@ -57,8 +58,11 @@ ROUTED = (programs, jobs, stored_programs, stored_views, catalogue, health, metr
 """Modules with routes, in the order in which the interface's description shows them."""
 
 
-def create_app(settings: Settings | None = None) -> FastAPI:
-    """The application, with the ``settings`` given or those of the environment."""
+def create_app(settings: Settings | None = None, launched: list[Launched] | None = None) -> FastAPI:
+    """The application, with the ``settings`` given or those of the environment.
+
+    Its workers are those processes that are ``launched`` already, as far as they go.
+    """
     chosen = settings or settings_of_process()
     tracing = tracing_of(chosen)
 
@@ -70,7 +74,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             database = Database(chosen.database_url)
             stack.push_async_callback(asyncio.to_thread, database.close)
             await asyncio.to_thread(database.migrate)
-            pool = await stack.enter_async_context(WorkerPool(chosen))
+            pool = await stack.enter_async_context(WorkerPool(chosen, launched=launched))
             pool.witness = accountant(app.state.metrics, tracing)
             app.state.metrics.watch(pool, chosen.workers)
             results = await stack.enter_async_context(

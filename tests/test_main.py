@@ -1,7 +1,17 @@
 import subprocess
 import sys
 
-HEAVY = ("numba", "pyrender", "trimesh", "scipy", "manifold3d", "PIL", "app.pipeline", "tqdm")
+HEAVY = (
+    "numpy",
+    "numba",
+    "pyrender",
+    "trimesh",
+    "scipy",
+    "manifold3d",
+    "PIL",
+    "app.pipeline",
+    "tqdm",
+)
 
 
 def test_the_service_starts_without_what_only_workers_need() -> None:

@@ -17,8 +17,6 @@ from app.notations.loader import load_notation, notation_names
 from app.notations.notation import Notation
 from app.output.media import SceneFormat
 from app.program.model import Finish
-from app.scene.materials import SURFACES
-from app.scene.palette import palettes as all_palettes
 
 UNCHANGED: dict[int | str, dict[str, Any]] = {
     304: {"description": "The client has this answer already (`If-None-Match`)."}
@@ -90,6 +88,8 @@ async def notations(request: Request) -> Response:
 @router.get("/materials", response_model=list[MaterialEntry])
 async def materials(request: Request) -> Response:
     """The materials that documents may name."""
+    from app.scene.materials import SURFACES  # needs NumPy, as nothing else in the service does
+
     entries = [MaterialEntry.model_validate(surface) for surface in SURFACES.values()]
     return _json(request, list[MaterialEntry], entries)
 
@@ -97,6 +97,8 @@ async def materials(request: Request) -> Response:
 @router.get("/palettes", response_model=list[PaletteEntry])
 async def palettes(request: Request) -> Response:
     """The palettes that documents may name."""
+    from app.scene.palette import palettes as all_palettes  # likewise
+
     entries = [PaletteEntry.model_validate(palette) for palette in all_palettes()]
     return _json(request, list[PaletteEntry], entries)
 

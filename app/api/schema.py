@@ -17,15 +17,8 @@ from pydantic.json_schema import models_json_schema
 
 from app.api import problems
 from app.api.journal import HEADER as REQUEST_ID
-from app.api.layout_model import LayoutNumbers
-from app.api.revision_model import RevisionModel
-from app.formats.hypergraph import Hypergraph
-from app.formats.netlist import Netlist
 from app.formats.registry import FORMATS
 from app.output.media import SceneFormat
-from app.program.edit_model import EditList
-from app.program.model import Program
-from app.program.patching import JsonPatchDocument
 
 EXAMPLE = {
     "name": "A relation of three",
@@ -39,12 +32,12 @@ EXAMPLE = {
     ],
 }
 
-DOCUMENTS: Mapping[str, type[BaseModel]] = {
-    "tubeloom": Program,
-    "yosys": Netlist,
-    "hif": Hypergraph,
+DOCUMENTS: Mapping[str, str] = {
+    "tubeloom": "Program",
+    "yosys": "Netlist",
+    "hif": "Hypergraph",
 }
-"""What the documents of each format follow."""
+"""The schemas that the documents of each format follow."""
 
 NETLIST = {
     "modules": {
@@ -151,6 +144,15 @@ def describe(call: str) -> dict[str, Any]:
 def openapi(app: FastAPI) -> dict[str, Any]:
     """The description of ``app``, with the schemas of documents, numbers and problems."""
     if app.openapi_schema is None:
+        # The service itself needs few of the models, and to make them all takes its time.
+        from app.api.layout_model import LayoutNumbers
+        from app.api.revision_model import RevisionModel
+        from app.formats.hypergraph import Hypergraph
+        from app.formats.netlist import Netlist
+        from app.program.edit_model import EditList
+        from app.program.model import Program
+        from app.program.patching import JsonPatchDocument
+
         described = get_openapi(
             title=app.title,
             version=app.version,
@@ -162,7 +164,9 @@ def openapi(app: FastAPI) -> dict[str, Any]:
         )
         _, ours = models_json_schema(
             [
-                *((model, "validation") for model in DOCUMENTS.values()),
+                (Program, "validation"),
+                (Netlist, "validation"),
+                (Hypergraph, "validation"),
                 (LayoutNumbers, "validation"),
                 (EditList, "validation"),
                 (JsonPatchDocument, "validation"),
@@ -211,7 +215,7 @@ def contents(call: str) -> dict[str, Any]:
         case "render":
             return {scene.media_type: {"schema": _BINARY} for scene in SceneFormat}
         case "layout":
-            return {"application/json": {"schema": reference(LayoutNumbers)}}
+            return {"application/json": {"schema": reference("LayoutNumbers")}}
         case _:
             return {
                 found.media_type: {"schema": reference(DOCUMENTS[name])}
@@ -222,7 +226,7 @@ def contents(call: str) -> dict[str, Any]:
 
 def problem(call: str, detail: str) -> dict[str, Any]:
     """An answer of a call that tells what went wrong."""
-    content: dict[str, Any] = {problems.MEDIA_TYPE: {"schema": reference(Problem)}}
+    content: dict[str, Any] = {problems.MEDIA_TYPE: {"schema": reference("Problem")}}
     if call == "render":  # with errors=image
         content |= {each.media_type: {} for each in (SceneFormat.PNG, SceneFormat.SVG)}
     return {"description": detail, "content": content}
@@ -233,6 +237,6 @@ def headers(*names: str) -> dict[str, Any]:
     return {name: {"schema": {"type": "string"}} for name in (*names, REQUEST_ID)}
 
 
-def reference(model: type[BaseModel]) -> dict[str, str]:
-    """Where the schema of a model is."""
-    return {"$ref": _REFERENCES.format(model=model.__name__)}
+def reference(model: str) -> dict[str, str]:
+    """Where the schema of a model is; `openapi` puts it there."""
+    return {"$ref": _REFERENCES.format(model=model)}

@@ -5,11 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from app.api.revision_model import RevisionModel
 from app.api.schema import EXAMPLE, contents, documents, headers, problem, reference
-from app.program.edit_model import EditList
-from app.program.model import Program
-from app.program.patching import JsonPatchDocument
 
 JSON_PATCH = "application/json-patch+json"
 MERGE_PATCH = "application/merge-patch+json"
@@ -57,7 +53,7 @@ def describe_document() -> dict[str, Any]:
             200: {
                 "description": "The document in canonical form.",
                 "headers": headers("ETag", "Content-Disposition", "Tubeloom-Revision"),
-                "content": {"application/json": {"schema": reference(Program)}},
+                "content": {"application/json": {"schema": reference("Program")}},
             },
             304: _UNCHANGED,
         },
@@ -103,7 +99,7 @@ def describe_change(call: str) -> dict[str, Any]:
     """Of a ``call`` (put, patch, edits, undo, redo, delete) that changes a program."""
     revision = {
         "headers": headers("ETag", "Tubeloom-Revision"),
-        "content": {"application/json": {"schema": reference(RevisionModel)}},
+        "content": {"application/json": {"schema": reference("RevisionModel")}},
     }
     found: dict[int, Any] = {200: {"description": "The newest revision.", **revision}}
     if call == "put":
@@ -130,11 +126,11 @@ def _bodies(call: str) -> dict[str, Any]:
         case "put":
             return documents()
         case "edits":
-            return {"application/json": {"schema": reference(EditList), "example": _EDITS}}
+            return {"application/json": {"schema": reference("EditList"), "example": _EDITS}}
         case "patch":
             return {
                 JSON_PATCH: {
-                    "schema": reference(JsonPatchDocument),
+                    "schema": reference("JsonPatchDocument"),
                     "example": [{"op": "add", "path": "/name", "value": EXAMPLE["name"]}],
                 },
                 MERGE_PATCH: {"schema": {"type": "object"}, "example": {"style": {"halo": 0.5}}},

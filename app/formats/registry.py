@@ -1,19 +1,23 @@
-"""The formats of documents, by name."""
+"""The formats of documents, by name.
+
+What reads and writes them is imported when it is first used: the service knows their names alone.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import TYPE_CHECKING, TypeAlias
 
 from app.errors import UnknownName
-from app.formats import hif, tubeloom, yosys
-from app.program.model import Program
-from app.program.reading import read_program
-from app.settings import Settings
 
-Reader = Callable[[bytes, Settings], Program]
-Writer = Callable[[Program], bytes]
+if TYPE_CHECKING:
+    from app.program.model import Program
+    from app.settings import Settings
+
+Reader: TypeAlias = "Callable[[bytes, Settings], Program]"
+Writer: TypeAlias = "Callable[[Program], bytes]"
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +38,36 @@ class Format:
         return self.writer is not None
 
 
+def _read_program(data: bytes, settings: Settings) -> Program:
+    from app.program.reading import read_program
+
+    return read_program(data, settings)
+
+
+def _write_program(program: Program) -> bytes:
+    from app.formats import tubeloom
+
+    return tubeloom.write(program)
+
+
+def _read_yosys(data: bytes, settings: Settings) -> Program:
+    from app.formats import yosys
+
+    return yosys.read(data, settings)
+
+
+def _read_hif(data: bytes, settings: Settings) -> Program:
+    from app.formats import hif
+
+    return hif.read(data, settings)
+
+
+def _write_hif(program: Program) -> bytes:
+    from app.formats import hif
+
+    return hif.write(program)
+
+
 FORMATS: Mapping[str, Format] = MappingProxyType(
     {
         format_.name: format_
@@ -44,8 +78,8 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
                 "Items with attachment points, and hyperedges that join them.",
                 "application/json",
                 ".json",
-                read_program,
-                tubeloom.write,
+                _read_program,
+                _write_program,
             ),
             Format(
                 "yosys",
@@ -53,7 +87,7 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
                 "What Yosys' write_json makes: cells, module ports and the nets between them.",
                 "application/vnd.yosys+json",
                 ".json",
-                yosys.read,
+                _read_yosys,
                 None,
             ),
             Format(
@@ -62,8 +96,8 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
                 "The hypergraph interchange format: nodes, edges, and which node is in which edge.",
                 "application/vnd.hif+json",
                 ".json",
-                hif.read,
-                hif.write,
+                _read_hif,
+                _write_hif,
             ),
         )
     }

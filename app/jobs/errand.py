@@ -7,11 +7,7 @@ worker dies, the child does so by itself.
 
 from __future__ import annotations
 
-import os
 import select
-import socket
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable
@@ -20,6 +16,7 @@ from typing import Any
 
 from app.errors import DeadlineExceeded
 from app.jobs import channel
+from app.jobs.launch import launch
 from app.jobs.work import Crash, Ready, Reply, Report, Work
 from app.settings import Settings
 
@@ -44,17 +41,8 @@ class Child:
 
     def __init__(self, settings: Settings) -> None:
         self.settings = settings
-        self._end, theirs = socket.socketpair()
-        with theirs:
-            self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
-                [
-                    *(sys.executable, "-P", "-X", "faulthandler"),
-                    *("-m", "app.jobs.worker", str(theirs.fileno())),
-                ],
-                stdin=subprocess.DEVNULL,
-                pass_fds=[theirs.fileno()],
-                env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
-            )
+        launched = launch()
+        self._process, self._end = launched.process, launched.end
         self.is_warm = False
 
     def send(self, head: object, payload: bytes = b"") -> None:

@@ -16,6 +16,7 @@ import structlog
 
 from app.answers import Answer, Change, Options, Revised, ReviseOptions, Unchanged, is_slow
 from app.errors import DeadlineExceeded, Overloaded, WorkerLost
+from app.jobs.launch import Launched
 from app.jobs.process import Listener, WorkerDiedError, WorkerProcess
 from app.jobs.work import Crash, Reply, Stage, Work
 from app.settings import Settings
@@ -70,13 +71,19 @@ class WorkerPool:
     Use it as an asynchronous context manager. Its start does not wait for the workers: works
     that come before they are warm stand in line. A work whose worker dies is tried ``attempts``
     times. Where the line would take longer than ``line_seconds``, nobody else may wait in it.
+    Processes that are ``launched`` already are taken from there.
     """
 
     def __init__(
-        self, settings: Settings, attempts: int = 2, line_seconds: float = PROMPT_SECONDS
+        self,
+        settings: Settings,
+        attempts: int = 2,
+        line_seconds: float = PROMPT_SECONDS,
+        launched: list[Launched] | None = None,
     ) -> None:
         self._settings, self._attempts = settings, attempts
         self._line_seconds = line_seconds
+        self._launched = launched if launched is not None else []
         self._idle: list[WorkerProcess] = []
         self._line: deque[asyncio.Future[WorkerProcess]] = deque()
         self._slots: list[asyncio.Task[None]] = []
@@ -243,13 +250,13 @@ class WorkerPool:
 
     async def _keep_manned(self, *, first: bool) -> None:
         """Start a worker, wait until it dies, start the next; wait longer where starting fails."""
-        if not first:
-            # Where kernels must be compiled, one worker does it and the others load them.
-            await self._first_started.wait()
         pause = 0.0
         while True:
-            worker = await WorkerProcess.start(self._settings)
+            worker = await WorkerProcess.start(self._launched.pop() if self._launched else None)
             try:
+                if not first:
+                    # Where kernels must be compiled, one does it and the others load them.
+                    await self._first_started.wait()
                 warmed_up = await self._warmed_up(worker)
                 self._first_started.set()
                 if warmed_up:
@@ -267,7 +274,7 @@ class WorkerPool:
     async def _warmed_up(self, worker: WorkerProcess) -> bool:
         try:
             async with asyncio.timeout(START_SECONDS):
-                first = await worker.ready()
+                first = await worker.ready(self._settings)
         except (WorkerDiedError, TimeoutError):
             log.warning("worker did not start", pid=worker.pid)
             return False

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import os
-import socket
 import subprocess
-import sys
 from collections.abc import Callable
 
 from app.jobs import channel
+from app.jobs.launch import Launched, launch
 from app.jobs.work import Crash, Ready, Reply, Report, Work
 from app.settings import Settings
 
@@ -22,11 +20,7 @@ class WorkerDiedError(Exception):
 
 
 class WorkerProcess:
-    """A process that answers one work at a time.
-
-    It is started afresh, never forked: a copy of a process with threads and graphics contexts
-    hangs sooner or later.
-    """
+    """A process that answers one work at a time."""
 
     def __init__(
         self,
@@ -42,33 +36,26 @@ class WorkerProcess:
         self._listening = loop.create_task(self._listen())
 
     @classmethod
-    async def start(cls, settings: Settings) -> WorkerProcess:
-        """Start a process. It may be asked once `ready` has returned."""
-        ours, theirs = socket.socketpair()
-        with theirs:
-            process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
-                [
-                    *(sys.executable, "-P", "-X", "faulthandler"),
-                    *("-m", "app.jobs.worker", str(theirs.fileno())),
-                ],
-                stdin=subprocess.DEVNULL,
-                pass_fds=[theirs.fileno()],
-                env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
-            )
-        ours.setblocking(False)
-        reader, writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 22)
-        worker = cls(process, reader, writer)
-        channel.post(writer, settings)
-        return worker
+    async def start(cls, launched: Launched | None = None) -> WorkerProcess:
+        """Start a process, or take one that has been. It imports what it needs, then waits."""
+        launched = launched or launch()
+        launched.end.setblocking(False)
+        reader, writer = await asyncio.open_unix_connection(sock=launched.end, limit=1 << 22)
+        return cls(launched.process, reader, writer)
 
     @property
     def pid(self) -> int:
         """The process's number."""
         return self._process.pid
 
-    async def ready(self) -> Ready | Crash:
-        """Wait until it is warm, or has failed to become so. Raises `WorkerDiedError`."""
-        head, _ = await self._next()
+    async def ready(self, settings: Settings) -> Ready | Crash:
+        """Wait until it is warm, or has failed to become so. Raises `WorkerDiedError`.
+
+        Before that it may not be asked.
+        """
+        first = self._next()
+        channel.post(self._writer, settings)
+        head, _ = await first
         if not isinstance(head, Ready | Crash):
             raise TypeError(f"A worker began with {type(head).__name__}.")
         return head

@@ -10,8 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components, dijkstra
 
 from app.arrays import Floats, Indices
 from app.solids.mesh import Mesh
@@ -85,6 +83,10 @@ def _measured(mesh: Mesh, rings: _Rings) -> Strands:
         np.concatenate([steps, np.zeros(len(here))]),
     )
     numbers = np.arange(count * sides).reshape(count, sides)
+    # Few tubes have a grain, and this takes longer to import than all else that scenes need.
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     joined = coo_array(
         (
             np.ones(rings.before.size * sides + len(here)),
@@ -126,6 +128,9 @@ def _shared(mesh: Mesh, rings: _Rings) -> tuple[Indices, Indices]:
 
 def _along(count: int, here: Indices, there: Indices, lengths: Floats) -> Floats:
     """Distances (count,) from the first ring of each connected tree."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components, dijkstra
+
     ways = coo_array((lengths + _NEXT_TO_NOTHING, (here, there)), shape=(count, count)).tocsr()
     _, tree = connected_components(ways, directed=False)
     _, roots = np.unique(tree, return_index=True)
