@@ -76,7 +76,7 @@ def _serve(settings: Settings, processes: list[Launched]) -> None:
 
     import uvicorn
 
-    from app.api.connections import Connection
+    from app.api.connections import connections
     from app.api.journal import configure_logging
     from app.main import create_app
 
@@ -96,7 +96,7 @@ def _serve(settings: Settings, processes: list[Launched]) -> None:
         log_config=None,
         access_log=False,
         server_header=False,
-        http=Connection,
+        http=connections(settings.head_seconds),
         ws="none",
         proxy_headers=bool(settings.trusted_proxies),
         forwarded_allow_ips=list(settings.trusted_proxies),

@@ -88,8 +88,10 @@ def create_app(settings: Settings | None = None, launched: list[Launched] | None
             feed = await stack.enter_async_context(Feed(database, chosen))
             changer = Changer(database, pool, chosen)
             changer.listener = feed.tell
-            app.state.database, app.state.keyring = database, Keyring(database)
-            app.state.pool, app.state.examiner = pool, health.Examiner(pool, database)
+            app.state.database = database
+            app.state.keyring = Keyring(database, chosen.key_seconds)
+            app.state.pool = pool
+            app.state.examiner = health.Examiner(pool, database, chosen.examine_seconds)
             app.state.feed, app.state.changer = feed, changer
             app.state.before_shutdown = [feed.end, keeper.listeners.end]
             yield

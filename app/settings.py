@@ -65,6 +65,9 @@ class Settings(BaseSettings):
     auth: Literal["auto", "required", "off"] = Field(
         "auto", description="Whether keys are needed; auto: unless only this machine is served."
     )
+    key_seconds: float = Field(
+        5.0, gt=0, description="So long may a key that was revoked meanwhile still be taken."
+    )
     rate_per_key: Rate | None = Field(
         None, description="Most requests with one key, such as 20/second; 600/minute."
     )
@@ -124,8 +127,19 @@ class Settings(BaseSettings):
         512 * 1024 * 1024, ge=1, description="Of all bodies that are read or worked on at a time."
     )
     upload_seconds: float = Field(60.0, gt=0, description="Longest that a body may take to come.")
+    head_seconds: float = Field(
+        10.0,
+        gt=0,
+        description="Longest that the head of a request may take to come, or the rest of a body "
+        "that nobody reads.",
+    )
     max_waiting: int = Field(64, ge=0, description="Requests that may wait for a worker.")
     deadline_seconds: float = Field(60.0, gt=0, description="Longest work on one request.")
+    examine_seconds: float = Field(
+        5.0,
+        gt=0,
+        description="So long is believed what /readyz tried out, and longer it may not take.",
+    )
 
     max_worker_bytes: int = Field(
         4 * 1024**3, ge=512 * 1024**2, description="Memory that one worker may take."

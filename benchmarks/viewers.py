@@ -22,7 +22,7 @@ import numpy as np
 
 from tests.service import SMALL, Service, running_service
 
-PROGRAM = "/v1/programs/watched"
+PROGRAM = "/v1/programs/watched-by-many"
 
 CUT_SHARE = 0.01
 """Of the viewers."""
@@ -62,13 +62,9 @@ class Outcome:
         )
 
 
-def measure(viewers: int, seconds: float, rate: float) -> Outcome:
-    """Start a service, and let so many watch it for so long at ``rate`` edits a second."""
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        running_service(Path(folder), workers=1) as service,
-    ):
-        return asyncio.run(_measure(service, viewers, seconds, rate))
+def measure(service: Service, viewers: int, seconds: float, rate: float) -> Outcome:
+    """Let so many watch a service for so long at ``rate`` edits a second."""
+    return asyncio.run(_measure(service, viewers, seconds, rate))
 
 
 async def _measure(service: Service, viewers: int, seconds: float, rate: float) -> Outcome:
@@ -164,7 +160,8 @@ def main() -> None:
     parser.add_argument("--rate", type=float, default=10.0)
     parser.add_argument("--json", action="store_true")
     asked = parser.parse_args()
-    outcome = measure(asked.viewers, asked.seconds, asked.rate)
+    with tempfile.TemporaryDirectory() as folder, running_service(Path(folder)) as service:
+        outcome = measure(service, asked.viewers, asked.seconds, asked.rate)
     if asked.json:
         late = float(np.quantile(outcome.since_sent, 0.99))
         print(json.dumps({"incomplete": outcome.incomplete, "late_seconds": late}))

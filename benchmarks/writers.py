@@ -14,6 +14,7 @@ import random
 import tempfile
 import threading
 import time
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
@@ -103,8 +104,17 @@ class Survival:
         )
 
 
-def survive(writes: int, kills: int, database: str | None = None, seed: int = 1) -> Survival:
-    """Write so often, while the service is killed at random points of it and started again."""
+def survive(
+    writes: int,
+    kills: int,
+    database: str | None = None,
+    seed: int = 1,
+    before: Callable[[Service], object] | None = None,
+) -> Survival:
+    """Write so often, while the service is killed at random points of it and started again.
+
+    The first of these services is good for what is done ``before``.
+    """
     moments = random.Random(seed)
     left = writes
     acknowledged: dict[int, str] = {}
@@ -116,6 +126,8 @@ def survive(writes: int, kills: int, database: str | None = None, seed: int = 1)
             with running_service(folder, workers=1, database=url) as service:
                 if lost := _lost(url, acknowledged):
                     return Survival(writes, round_number, len(acknowledged), lost, 0)
+                if before is not None and round_number == 0:
+                    before(service)
                 if round_number < kills:
                     delay = moments.uniform(0.05, 0.03 * share)
                     threading.Timer(delay, service.process.kill).start()

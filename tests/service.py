@@ -97,14 +97,14 @@ def until(find: Callable[[], Found | None], seconds: float = PATIENCE_SECONDS) -
 
 
 @contextmanager
-def running_service(folder: Path, *, warm: bool = True, **settings: object) -> Iterator[Service]:
+def running_service(folder: Path, **settings: object) -> Iterator[Service]:
     """A service with ``settings``; on a free port unless ``port`` is among them.
 
     It has one worker if they say nothing else: each takes seconds to start. Those are waited for,
-    unless it need not be ``warm``.
+    unless ``warm`` among the settings is false.
     """
     log = folder / "service.log"
-    port = str(settings.pop("port", 0))
+    port, warm = str(settings.pop("port", 0)), settings.pop("warm", True)
     asked = {"workers": 1} | settings
     environment = {f"TUBELOOM_{name.upper()}": str(value) for name, value in asked.items()}
     with log.open("wb") as sink:

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from typing import cast
+from typing import ClassVar, cast
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
-
-HEAD_SECONDS = 10.0
-"""How long the head of a request may take to come, and the rest of a body that nobody reads."""
 
 HEAD_BYTES = 64 * 1024
 
@@ -21,6 +18,9 @@ TOO_LARGE = (
 class Connection(HttpToolsProtocol):
     """One connection, as uvicorn serves it; it is closed when it is not used as it should be."""
 
+    head_seconds: ClassVar[float]
+    """How long the head of a request may take to come, and the rest of a body nobody reads."""
+
     _timer: asyncio.TimerHandle | None = None
     _head_bytes = 0
     _in_head = True
@@ -28,7 +28,7 @@ class Connection(HttpToolsProtocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Begin to wait."""
         super().connection_made(cast("asyncio.Transport", transport))
-        self._close_in(HEAD_SECONDS)
+        self._close_in(self.head_seconds)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Wait no more."""
@@ -39,7 +39,7 @@ class Connection(HttpToolsProtocol):
         """Take what came, unless it is more than a head may have."""
         super().data_received(data)
         if self._timer is None and self._is_answered():
-            self._close_in(HEAD_SECONDS)
+            self._close_in(self.head_seconds)
         if self._in_head:
             self._head_bytes += len(data)
             if self._head_bytes > HEAD_BYTES and not self.transport.is_closing():
@@ -50,7 +50,7 @@ class Connection(HttpToolsProtocol):
         """A head begins."""
         super().on_message_begin()
         self._in_head, self._head_bytes = True, 0
-        self._close_in(HEAD_SECONDS)
+        self._close_in(self.head_seconds)
 
     def on_headers_complete(self) -> None:
         """The head has come."""
@@ -62,7 +62,7 @@ class Connection(HttpToolsProtocol):
         """The answer has gone; what still comes of the body is waited for, but not for ever."""
         super().on_response_complete()
         if self._is_answered() and self.cycle.more_body and not self.transport.is_closing():
-            self._close_in(HEAD_SECONDS)
+            self._close_in(self.head_seconds)
 
     def _is_answered(self) -> bool:
         return self.cycle is None or self.cycle.response_complete
@@ -79,3 +79,12 @@ class Connection(HttpToolsProtocol):
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
+
+
+def connections(seconds: float) -> type[Connection]:
+    """The class of connections whose heads may take so many ``seconds`` to come."""
+
+    class Limited(Connection):
+        head_seconds = seconds
+
+    return Limited

@@ -24,12 +24,6 @@ log = structlog.get_logger("tubeloom.health")
 
 router = APIRouter(tags=["health"])
 
-MEMORY_SECONDS = 5.0
-"""So long is believed what was found, so that asking costs next to nothing."""
-
-PATIENCE_SECONDS = 5.0
-"""What takes longer does not work, as far as whoever asks can tell."""
-
 PIXEL = RenderOptions(SceneFormat.PNG, width=1, height=1)
 SCENE = b'{"items": [{"id": "a"}, {"id": "b"}], "hyperedges": [{"id": "e", "attachments": \
 [{"item": "a"}, {"item": "b"}]}]}'
@@ -83,10 +77,14 @@ class Findings:
 
 
 class Examiner:
-    """Tries out what a service is made of, now and then, and only when somebody asks."""
+    """Tries out what a service is made of, now and then, and only when somebody asks.
 
-    def __init__(self, pool: WorkerPool, database: Database) -> None:
-        self._pool, self._database = pool, database
+    What was found is believed for so many ``seconds``, so that asking costs next to nothing; and
+    what takes longer does not work, as far as whoever asks can tell.
+    """
+
+    def __init__(self, pool: WorkerPool, database: Database, seconds: float) -> None:
+        self._pool, self._database, self._seconds = pool, database, seconds
         self._until = 0.0
         self._found = Findings(None, None)
         self._lock = asyncio.Lock()
@@ -100,7 +98,7 @@ class Examiner:
                 if workers or database:
                     log.warning("not ready", workers=workers, database=database)
                 self._found = Findings(workers, database)
-                self._until = time.monotonic() + MEMORY_SECONDS
+                self._until = time.monotonic() + self._seconds
         return self._found
 
     async def _draw(self) -> str | None:
@@ -110,9 +108,9 @@ class Examiner:
                 return None
             # Not stopped here, but at the deadline: the first picture may compile kernels.
             self._drawing = asyncio.create_task(self._pixel())
-        await asyncio.wait({self._drawing}, timeout=PATIENCE_SECONDS)
+        await asyncio.wait({self._drawing}, timeout=self._seconds)
         if not self._drawing.done():
-            return f"A worker has not drawn a pixel within {PATIENCE_SECONDS:g} seconds."
+            return f"A worker has not drawn a pixel within {self._seconds:g} seconds."
         problem, self._drawing = self._drawing.result(), None
         return problem
 
@@ -130,10 +128,10 @@ class Examiner:
 
     async def _read(self) -> str | None:
         try:
-            async with asyncio.timeout(PATIENCE_SECONDS):
+            async with asyncio.timeout(self._seconds):
                 await self._database.read(check)
         except TimeoutError:
-            return f"It did not answer within {PATIENCE_SECONDS:g} seconds."
+            return f"It did not answer within {self._seconds:g} seconds."
         except TubeloomError as error:
             return str(error)
         except Exception:

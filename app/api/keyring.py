@@ -15,9 +15,6 @@ from app.store.keys import Key
 
 log = structlog.get_logger("tubeloom.keys")
 
-MEMORY_SECONDS = 5.0
-"""So long may a key that was revoked meanwhile still be taken."""
-
 MOST_REMEMBERED = 10_000
 
 USE_SECONDS = 60.0
@@ -25,10 +22,10 @@ USE_SECONDS = 60.0
 
 
 class Keyring:
-    """The keys in a database."""
+    """The keys in a database; each look into it is believed for ``memory_seconds``."""
 
-    def __init__(self, database: Database) -> None:
-        self._database = database
+    def __init__(self, database: Database, memory_seconds: float) -> None:
+        self._database, self._memory_seconds = database, memory_seconds
         self._found: OrderedDict[str, tuple[float, Key | None]] = OrderedDict()
         self._noted: dict[str, float] = {}
         self._notes: set[asyncio.Task[None]] = set()
@@ -45,7 +42,7 @@ class Keyring:
         if time.monotonic() < until:
             return key
         key = await self._database.read(lambda connection: keys.find(connection, digest))
-        self._found[digest] = time.monotonic() + MEMORY_SECONDS, key
+        self._found[digest] = time.monotonic() + self._memory_seconds, key
         self._found.move_to_end(digest)
         if len(self._found) > MOST_REMEMBERED:
             self._found.popitem(last=False)

@@ -42,7 +42,7 @@ def test_an_answer_is_there_when_it_is_asked_for_again(
 
 
 def test_the_same_question_at_the_same_time_is_worked_on_once(service: Service) -> None:
-    document = large_program(702)
+    document = large_program(202)
 
     def ask(_number: int) -> httpx.Response:
         with service.client() as client:
@@ -56,7 +56,7 @@ def test_the_same_question_at_the_same_time_is_worked_on_once(service: Service) 
 
 
 def test_who_leaves_does_not_end_what_another_waits_for(service: Service) -> None:
-    document = large_program(803)
+    document = large_program(303)
     with ThreadPoolExecutor(1) as background, service.client() as other, service.client() as third:
         stays = background.submit(other.post, "/v1/render", content=document)
         with pytest.raises(httpx.ReadTimeout):
@@ -83,13 +83,14 @@ def test_an_answer_that_is_there_comes_as_the_only_event(client: httpx.Client) -
 
 def test_answers_outlive_a_service_that_is_killed(tmp_path: Path) -> None:
     document = named("kept")
-    with running_service(tmp_path, workers=1) as service, service.client() as client:
+    with running_service(tmp_path) as service, service.client() as client:
         first = client.post("/v1/render", content=document)
         database = sqlite3.connect(tmp_path / "data" / "tubeloom.db")
         until(lambda: database.execute("SELECT key FROM results").fetchall())
         database.close()
         service.process.kill()
-    with running_service(tmp_path, workers=1) as service, service.client() as client:
+    # Nobody has to work for it.
+    with running_service(tmp_path, warm=False) as service, service.client() as client:
         again = client.post("/v1/render", content=document)
     assert again.headers["tubeloom-cache"] == "hit"
     assert again.content == first.content

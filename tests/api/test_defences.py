@@ -1,10 +1,8 @@
-from pathlib import Path
-
 import httpx
 import pytest
 
 from tests.api.raw import host_of
-from tests.service import SMALL, Service, running_service
+from tests.service import SMALL, Service
 
 COMMON = {
     "x-content-type-options": "nosniff",
@@ -101,16 +99,8 @@ def test_a_form_of_a_stranger_is_refused(client: httpx.Client) -> None:
     assert answer.status_code == 403
 
 
-def test_hosts_and_origins_are_those_of_the_settings(tmp_path: Path) -> None:
-    with (
-        running_service(
-            tmp_path,
-            workers=1,
-            hosts="127.0.0.1, tubes.example",
-            cors_origins="https://pages.example",
-        ) as service,
-        service.client() as client,
-    ):
+def test_hosts_and_origins_are_those_of_the_settings(strict: Service) -> None:
+    with strict.client() as client:
         for host, status in (
             ("tubes.example", 200),
             ("Tubes.Example:8000", 200),

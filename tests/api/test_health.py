@@ -10,7 +10,7 @@ from app.jobs.executor import WorkerPool
 from app.main import create_app
 from app.settings import Settings
 from app.store.database import Database
-from tests.service import Service, running_service, until
+from tests.service import SMALL, Service, running_service, until
 
 
 def test_the_service_lives(client: httpx.Client) -> None:
@@ -30,9 +30,13 @@ def test_the_service_is_ready_and_can_draw(client: httpx.Client) -> None:
     }
 
 
-def works(client: httpx.Client) -> float:
+def figure(client: httpx.Client, name: str) -> float:
     lines = client.get("/metrics").text.splitlines()
-    return float(next(line for line in lines if "tubeloom_work_seconds_count" in line).split()[1])
+    return float(next(line for line in lines if line.startswith(name)).split()[1])
+
+
+def works(client: httpx.Client) -> float:
+    return figure(client, "tubeloom_work_seconds_count")
 
 
 def test_readiness_is_tried_out_by_a_worker_but_not_for_everyone_who_asks(
@@ -57,19 +61,31 @@ def readiness(service: Service, status: int) -> dict[str, Any]:
     return found
 
 
-def test_a_worker_that_hangs_is_noticed_and_replaced(tmp_path: Path) -> None:
-    with running_service(tmp_path, workers=1, deadline_seconds=8) as service:
+def test_a_worker_that_hangs_is_noticed_counted_and_replaced(tmp_path: Path) -> None:
+    with running_service(tmp_path, deadline_seconds=3, examine_seconds=1) as service:
         (worker,) = service.workers()
         worker.suspend()
         found = readiness(service, 503)
         assert found["status"] == "broken"
         assert "pixel" in str(found["workers"]["problem"])
         assert readiness(service, 200)["workers"]["problem"] is None
-        assert service.workers() != [worker]
+        (another,) = service.workers()
+        assert another != worker
+        another.suspend()
+        with service.client() as client:
+            lost = lost_workers(client)
+            assert lost >= 1
+            assert client.post("/v1/render", json=SMALL).status_code == 504
+            assert lost_workers(client) > lost
+
+
+def lost_workers(client: httpx.Client) -> float:
+    return figure(client, "tubeloom_workers_lost_total")
 
 
 def test_a_database_that_cannot_be_read_is_noticed(tmp_path: Path) -> None:
-    with running_service(tmp_path, workers=1) as service:
+    with running_service(tmp_path, warm=False, examine_seconds=1) as service:
+        assert readiness(service, 200)["database"] == {"available": True, "problem": None}
         for file in (tmp_path / "data").glob("tubeloom.db*"):
             file.write_bytes(b"not a database" * 1000)
         found = readiness(service, 503)
@@ -93,7 +109,7 @@ def test_readiness_says_what_is_missing(
     database = Database(f"sqlite:///{tmp_path / 'tubeloom.db'}")
     database.migrate()
     app.state.pool = WorkerPool(Settings(workers=3))
-    app.state.examiner = Examiner(app.state.pool, database)
+    app.state.examiner = Examiner(app.state.pool, database, 5.0)
     app.state.pool.warm, app.state.pool.draft_problem = warm, problem
 
     async def ask() -> httpx.Response:

@@ -12,9 +12,10 @@ GROWTH_BYTES = 100 * 2**20
 
 def test_the_same_seed_makes_the_same_requests() -> None:
     numbers = range(2 * len(KINDS))
-    assert [hostile(number) for number in numbers] == [hostile(number) for number in numbers]
-    assert [hostile(number, 2) for number in numbers] != [hostile(number) for number in numbers]
-    assert {hostile(number).kind for number in numbers} == set(KINDS)
+    made = [hostile(number) for number in numbers]
+    assert [hostile(number) for number in numbers] == made
+    assert [hostile(number, 2) for number in numbers] != made
+    assert {each.kind for each in made} == set(KINDS)
 
 
 def test_hostile_requests_are_refused_and_leave_no_trace(service: Service) -> None:

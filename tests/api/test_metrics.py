@@ -1,11 +1,10 @@
 from collections.abc import Mapping
-from pathlib import Path
 
 import httpx
 from prometheus_client.parser import text_string_to_metric_families
 
 from tests.api.job_calls import LONG, program, start
-from tests.service import SMALL, running_service, until
+from tests.service import SMALL, until
 
 
 def samples(client: httpx.Client) -> Mapping[tuple[str, frozenset[tuple[str, str]]], float]:
@@ -91,17 +90,6 @@ def test_jobs_and_who_follows_them_are_counted(client: httpx.Client) -> None:
     for each in (job, other):
         assert client.delete(each).status_code == 204
     until(lambda: jobs("running") == jobs("waiting") == 0)
-
-
-def test_a_worker_that_dies_is_counted(tmp_path: Path) -> None:
-    with (
-        running_service(tmp_path, workers=1, deadline_seconds=2) as service,
-        service.client() as client,
-    ):
-        (worker,) = service.workers()
-        worker.suspend()
-        assert client.post("/v1/render", json=SMALL).status_code == 504
-        assert samples(client)["tubeloom_workers_lost_total", frozenset()] >= 1
 
 
 def test_what_strangers_ask_adds_no_more_than_one_line(client: httpx.Client) -> None:

@@ -1,14 +1,13 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
 from typing import Any
 
 import httpx
 import pytest
 import trimesh
 
-from tests.service import SMALL, running_service
+from tests.service import SMALL, Service
 
 FAR = 1e6
 TOO_THIN: dict[str, Any] = {
@@ -94,20 +93,11 @@ def test_time_is_told_once_for_all_tubes(client: httpx.Client) -> None:
     assert timing.count("making-tubes;dur=") == 1
 
 
-@pytest.fixture(scope="module")
-def strict(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    folder = tmp_path_factory.mktemp("strict")
-    with (
-        running_service(folder, max_print_triangles=500, workers=1) as service,
-        service.client() as client,
-    ):
-        yield client
-
-
 @pytest.mark.parametrize("parts", ["all", "items", "hyperedges"])
-def test_too_large_a_print_is_refused(strict: httpx.Client, parts: str) -> None:
-    response = strict.post(f"/v1/render?format=3mf&parts={parts}", json=SMALL)
+def test_too_large_a_print_is_refused(strict: Service, parts: str) -> None:
+    with strict.client() as client:
+        response = client.post(f"/v1/render?format=3mf&parts={parts}", json=SMALL)
+        assert client.post("/v1/render", json=SMALL).status_code == 200
     assert response.status_code == 413
     assert response.json()["type"] == "urn:tubeloom:problem:document-too-large"
     assert "the limit of 500" in response.json()["detail"]
-    assert strict.post("/v1/render", json=SMALL).status_code == 200

@@ -84,20 +84,13 @@ def test_nobody_watches_what_is_not_there(client: httpx.Client) -> None:
     assert (missing.status_code, missing.json()["type"]) == (404, "urn:tubeloom:problem:not-stored")
 
 
-@pytest.fixture(scope="module")
-def forgetful(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    folder = tmp_path_factory.mktemp("forgetful")
-    with running_service(folder, workers=1, kept_revisions=3, max_watchers=4) as service:
-        yield service
-
-
-def test_who_was_away_for_too_long_is_told(forgetful: Service) -> None:
+def test_who_was_away_for_too_long_is_told(strict: Service) -> None:
     path = "/v1/programs/forgotten"
-    with forgetful.client() as client:
+    with strict.client() as client:
         client.put(path, json=SMALL)
         for number in range(2, 9):
             relabel(client, path, str(number))
-        with watching(forgetful, path, last="2") as heard:
+        with watching(strict, path, last="2") as heard:
             assert next(heard) == Event("reset", {"revision": 8})
             relabel(client, path, "9")
             assert next(heard).data["revision"] == 9
@@ -105,17 +98,17 @@ def test_who_was_away_for_too_long_is_told(forgetful: Service) -> None:
         assert "tubeloom-since" not in whole.headers
 
 
-def test_only_so_many_may_watch(forgetful: Service) -> None:
+def test_only_so_many_may_watch(strict: Service) -> None:
     path = "/v1/programs/watched"
-    with forgetful.client() as client:
+    with strict.client() as client:
         client.put(path, json=SMALL)
         with ExitStack() as stack:
-            streams = [stack.enter_context(watching(forgetful, path)) for _ in range(4)]
+            streams = [stack.enter_context(watching(strict, path)) for _ in range(4)]
             assert [next(heard).name for heard in streams] == ["current"] * 4
             fifth = client.get(f"{path}/events")
             assert fifth.status_code == 503
             assert "retry-after" in fifth.headers
-        until(lambda: _may_watch(forgetful, path))
+        until(lambda: _may_watch(strict, path))
 
 
 def _may_watch(service: Service, path: str) -> bool:
@@ -123,30 +116,25 @@ def _may_watch(service: Service, path: str) -> bool:
         return response.status_code == 200
 
 
-def test_a_service_with_watchers_ends_when_it_is_asked_to(tmp_path: Path) -> None:
-    with running_service(tmp_path, workers=1) as service, service.client() as client:
-        client.put("/v1/programs/p", json=SMALL)
-        with watching(service, "/v1/programs/p") as heard:
-            next(heard)
-            service.process.terminate()
-            assert next(heard, None) is None
-            assert service.process.wait(10) is not None
-
-
-def test_two_services_on_one_database_tell_the_same(tmp_path: Path) -> None:
+def test_two_services_on_one_database_tell_the_same_and_end_when_asked_to(tmp_path: Path) -> None:
     (tmp_path / "second").mkdir()
     database = f"sqlite:///{tmp_path / 'shared.db'}"
     with (
-        running_service(tmp_path, workers=1, database=database) as first,
-        running_service(tmp_path / "second", workers=1, database=database) as second,
+        running_service(tmp_path, database=database) as first,
+        running_service(tmp_path / "second", database=database, warm=False) as second,
         first.client() as writer,
     ):
         writer.put("/v1/programs/p", json=SMALL)
-        with watching(second, "/v1/programs/p") as heard:
-            next(heard)
+        with watching(second, "/v1/programs/p") as heard, watching(first, "/v1/programs/p") as too:
+            assert [next(each).data["revision"] for each in (heard, too)] == [1, 1]
             thread = threading.Thread(
                 target=relabel_often, args=(writer, "/v1/programs/p", range(2, 8))
             )
             thread.start()
-            assert [next(heard).data["revision"] for _ in range(6)] == [2, 3, 4, 5, 6, 7]
+            for each in (heard, too):
+                assert [next(each).data["revision"] for _ in range(6)] == [2, 3, 4, 5, 6, 7]
             thread.join()
+            # Its watchers do not keep it.
+            second.process.terminate()
+            assert next(heard, None) is None
+            assert second.process.wait(10) is not None

@@ -6,15 +6,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from benchmarks.viewers import measure
-from benchmarks.writers import race, survive
+from benchmarks.writers import Race, race, survive
 from tests.postgres import Postgres, running_postgres
-from tests.service import running_service
+from tests.service import Service
 
 
 @pytest.fixture(scope="module")
@@ -24,29 +23,19 @@ def postgres() -> Iterator[Postgres]:
 
 
 @pytest.mark.parametrize("kind", ["sqlite", "postgresql"])
-def test_no_change_of_two_writers_gets_lost(
-    kind: str, request: pytest.FixtureRequest, tmp_path: Path
-) -> None:
-    url = f"sqlite:///{tmp_path / 'race.db'}"
-    if kind == "postgresql":
-        url = request.getfixturevalue("postgres").url
-    with running_service(tmp_path, workers=1, database=url) as service:
-        outcome = race(service, 40)
-    assert (outcome.count, outcome.revisions) == (40, 41)
-
-
-@pytest.mark.parametrize("kind", ["sqlite", "postgresql"])
-def test_what_was_acknowledged_outlives_the_service(
+def test_no_change_of_two_writers_gets_lost_nor_one_before_the_service_is_killed(
     kind: str, request: pytest.FixtureRequest
 ) -> None:
     url = request.getfixturevalue("postgres").url if kind == "postgresql" else None
-    outcome = survive(24, 1, url)
+    races: list[Race] = []
+    outcome = survive(24, 1, url, before=lambda service: races.append(race(service, 40)))
+    assert [(each.count, each.revisions) for each in races] == [(40, 41)]
     assert outcome.acknowledged > 8
     assert (outcome.lost, outcome.broken) == (0, 0)
 
 
-def test_every_viewer_hears_of_every_revision() -> None:
-    outcome = measure(viewers=60, seconds=3.0, rate=8.0)
+def test_every_viewer_hears_of_every_revision(service: Service) -> None:
+    outcome = measure(service, viewers=60, seconds=3.0, rate=8.0)
     assert outcome.incomplete == 0
     assert outcome.returned == 1
     assert np.isfinite(outcome.since_sent).all()
