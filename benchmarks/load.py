@@ -38,13 +38,15 @@ LEAST_OVERLOAD = 60.0
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Seconds for each part: of what is cached, for each size and service."""
+    """Seconds for each part: of what is cached, for each program and service."""
 
     search: float
     steady: float
     overload: float
     cached: float
     share: float = SHARE
+    programs: Sequence[str] = load_cached.PROGRAMS
+    rounds: int = load_cached.ROUNDS
 
 
 QUICK = Plan(search=3.0, steady=5.0, overload=5.0, cached=3.0)
@@ -86,7 +88,7 @@ def measure(plan: Plan) -> Figures:
         refusals = sorted(
             event["ms"] / 1000 for event in service.events() if event.get("status") == 503
         )
-        cached = load_cached.measure(service, plan.cached)
+        cached = load_cached.measure(service, plan.cached, plan.programs, plan.rounds)
     return Figures(highest, steady, memory, overload, refusals, recovery, cached, busy)
 
 

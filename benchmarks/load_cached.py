@@ -53,10 +53,12 @@ class Rate:
     cpu_seconds: float
 
 
-def measure(service: Service, seconds: float) -> Sequence[Rate]:
-    """The rates of some programs' scenes, each measured for so many ``seconds``."""
+def measure(
+    service: Service, seconds: float, programs: Sequence[str], rounds: int
+) -> Sequence[Rate]:
+    """The rates of some ``programs``' scenes, each measured for so many ``seconds``."""
     found = []
-    for program in PROGRAMS:
+    for program in programs:
         document = EXAMPLES / f"{program}.json"
         answer = httpx.post(f"{service.url}/v1/render", content=document.read_bytes(), timeout=60)
         size = len(answer.content)
@@ -67,9 +69,9 @@ def measure(service: Service, seconds: float) -> Sequence[Rate]:
                 "bare FastAPI": fastapi,
             }
             best = dict.fromkeys(asked, (0.0, 1.0))
-            for _ in range(ROUNDS):
+            for _ in range(rounds):
                 for who, (url, pid) in asked.items():
-                    rate, cpu = _ask(url, pid, document, seconds / ROUNDS)
+                    rate, cpu = _ask(url, pid, document, seconds / rounds)
                     best[who] = max(best[who][0], rate), min(best[who][1], cpu)
         found += [Rate(program, size, who, *figures) for who, figures in best.items()]
     return found

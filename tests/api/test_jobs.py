@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import httpx
+import pytest
 
 from tests.api.event_streams import events
 from tests.api.job_calls import LONG, PICTURE, at_work, over, program, start, state
@@ -180,28 +181,41 @@ def test_what_would_take_long_becomes_a_job_if_the_client_prefers_that(
     assert patient.headers["content-type"] == "image/png"
 
 
-def test_what_takes_too_much_memory_fails_and_too_many_jobs_are_refused(tmp_path: Path) -> None:
-    strictness = {"workers": 1, "max_jobs_waiting": 1, "max_worker_bytes": 512 * 1024**2}
-    with running_service(tmp_path, **strictness) as service, service.client() as client:
-        large = start(client, "format=glb", wide_program(3000))
-        problem = over(client, large)["problem"]
+@pytest.fixture(scope="module")
+def scarce(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service whose jobs have little of everything; only its workers for jobs are of use."""
+    with running_service(
+        tmp_path_factory.mktemp("scarce"),
+        warm=False,
+        max_jobs_waiting=1,
+        max_worker_bytes=512 * 1024**2,
+        job_deadline_seconds=6,
+    ) as running:
+        with running.client() as client:  # the deadline counts the start of the worker, too
+            until(lambda: over(client, start(client, "format=glb", program("")))["state"] == "done")
+        yield running
+
+
+def test_what_takes_too_much_memory_fails(scarce: Service) -> None:
+    with scarce.client() as client:
+        problem = over(client, start(client, "format=glb", wide_program(3000)))["problem"]
         assert problem["type"] == "urn:tubeloom:problem:document-too-large"
         assert "0.5 GiB" in problem["detail"]
-        first = start(client, LONG, program("first"))
+
+
+def test_what_takes_too_long_fails_and_too_many_jobs_are_refused(scarce: Service) -> None:
+    film = "format=webp&width=320&height=240&frames=1000"
+    with scarce.client() as client:
+        first = start(client, film, program("first"))
         until(lambda: state(client, first)["state"] == "running")
-        second = start(client, LONG, program("second"))
-        third = client.post(f"/v1/jobs?{LONG}", json=program("third"))
+        second = start(client, film, program("second"))
+        third = client.post(f"/v1/jobs?{film}", json=program("third"))
         assert third.status_code == 503
         assert third.json()["type"] == "urn:tubeloom:problem:overloaded"
         assert float(third.headers["retry-after"]) > 0
         client.delete(second)
-        assert start(client, LONG, program("fourth"))
-
-
-def test_what_takes_too_long_fails(tmp_path: Path) -> None:
-    strict = running_service(tmp_path, workers=1, job_deadline_seconds=3)
-    with strict as service, service.client() as client:
-        found = over(client, start(client, LONG, program("too long")))
+        client.delete(start(client, film, program("fourth")))
+        found = over(client, first)
         assert found["state"] == "failed"
         assert found["problem"]["type"] == "urn:tubeloom:problem:deadline-exceeded"
-        assert "3 seconds" in found["problem"]["detail"]
+        assert "6 seconds" in found["problem"]["detail"]

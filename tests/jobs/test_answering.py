@@ -25,7 +25,7 @@ from app.store.objects import ANSWER_SECONDS
 from app.store.results import Results
 from tests.service import SMALL, large_program
 
-LARGE = large_program(600)
+LARGE = large_program(200)
 GLB = RenderOptions()
 
 Test = Callable[[WorkerPool], Coroutine[Any, Any, None]]
@@ -233,7 +233,7 @@ def test_a_listener_hears_how_work_goes_on_that_another_began(
 ) -> None:
     async def test(pool: WorkerPool) -> None:
         heard: list[list[Report]] = [[], []]
-        document = large_program(601)
+        document = large_program(200)
         async with answering(tmp_path, pool) as found:
             works = works_of(pool)
             await asyncio.gather(

@@ -19,7 +19,7 @@ from app.settings import Settings
 from tests.service import SMALL, large_program, wide_program
 
 DOCUMENT = json.dumps(SMALL).encode()
-LARGE = large_program(1000)
+LARGE = large_program(300)
 
 
 Test = Callable[[WorkerPool], Coroutine[Any, Any, None]]
@@ -28,16 +28,16 @@ Test = Callable[[WorkerPool], Coroutine[Any, Any, None]]
 @pytest.fixture(scope="module")
 def in_pool() -> Iterator[Callable[[Test], None]]:
     """Runs a test in a pool of one worker and a line of one place, which tests share."""
-    pool = WorkerPool(Settings(workers=1, max_waiting=1))
+    pool = WorkerPool(Settings(workers=1, max_waiting=1, max_worker_bytes=512 * 1024**2))
     with asyncio.Runner() as runner:
         runner.run(pool.__aenter__())
         yield lambda test: runner.run(test(pool))
         runner.run(pool.__aexit__())
 
 
-def in_new_pool(test: Test, **settings: Any) -> None:
+def in_new_pool(pool: WorkerPool, test: Test) -> None:
     async def run() -> None:
-        async with WorkerPool(Settings(**{"workers": 1, **settings})) as pool:
+        async with pool:
             await test(pool)
 
     asyncio.run(run())
@@ -76,7 +76,7 @@ def test_works_wait_for_the_first_worker_and_the_end_of_the_pool_is_that_of_its_
         again = await pool.answer(DOCUMENT, RenderOptions(), frozenset({finished.answer.etag}))
         assert again.answer == Unchanged(finished.answer.etag)
 
-    in_new_pool(test)
+    in_new_pool(WorkerPool(Settings(workers=1)), test)
     assert worker_pids() == before
 
 
@@ -116,10 +116,12 @@ def test_work_beyond_the_deadline_is_stopped_and_its_worker_replaced() -> None:
         await warm(pool)
         assert len(before - worker_pids()) == 1
 
-    in_new_pool(test, deadline_seconds=0.3)
+    in_new_pool(WorkerPool(Settings(workers=1, deadline_seconds=0.3)), test)
 
 
-def test_a_scene_that_takes_too_much_memory_is_refused_and_costs_no_worker() -> None:
+def test_a_scene_that_takes_too_much_memory_is_refused_and_costs_no_worker(
+    in_pool: Callable[[Test], None],
+) -> None:
     async def test(pool: WorkerPool) -> None:
         await warm(pool)
         before = worker_pids()
@@ -128,7 +130,7 @@ def test_a_scene_that_takes_too_much_memory_is_refused_and_costs_no_worker() -> 
         await warm(pool)
         assert worker_pids() == before
 
-    in_new_pool(test, max_worker_bytes=512 * 1024**2)
+    in_pool(test)
 
 
 def test_a_full_line_turns_works_away_at_once_and_leaving_it_frees_a_place(
@@ -152,15 +154,14 @@ def test_a_full_line_turns_works_away_at_once_and_leaving_it_frees_a_place(
 
 @pytest.mark.parametrize(("line_seconds", "answered"), [(3.0, 20), (1e-4, 1 + SHORT_LINE)])
 def test_only_a_line_that_is_soon_done_may_grow_long(line_seconds: float, answered: int) -> None:
-    async def run() -> None:
-        async with WorkerPool(Settings(workers=1), line_seconds=line_seconds) as pool:
-            await warm(pool)
-            asked = [pool.answer(DOCUMENT, LayoutOptions()) for _ in range(20)]
-            outcomes = await asyncio.gather(*asked, return_exceptions=True)
-            assert sum(isinstance(each, Overloaded) for each in outcomes) == 20 - answered
-            await pool.answer(DOCUMENT, LayoutOptions())
+    async def test(pool: WorkerPool) -> None:
+        await warm(pool)
+        asked = [pool.answer(DOCUMENT, LayoutOptions()) for _ in range(20)]
+        outcomes = await asyncio.gather(*asked, return_exceptions=True)
+        assert sum(isinstance(each, Overloaded) for each in outcomes) == 20 - answered
+        await pool.answer(DOCUMENT, LayoutOptions())
 
-    asyncio.run(run())
+    in_new_pool(WorkerPool(Settings(workers=1), line_seconds=line_seconds), test)
 
 
 def test_short_work_that_nobody_waits_for_ends_and_keeps_its_worker(

@@ -12,7 +12,7 @@ from app.output.media import SceneFormat
 from tests.api.job_calls import over, program, start, state
 from tests.service import Service, running_service, until
 
-FILM = "quality=final&width=32&height=24&samples=1&frames=6"
+FILM = "quality=final&width=32&height=24&samples=1&frames=4"
 
 FINAL = RenderOptions(SceneFormat.MP4, quality="final")
 
