@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 import json
-import socket
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack
-from pathlib import Path
-from queue import Queue
 from typing import Any
 
 import pytest
@@ -19,7 +15,6 @@ from tubeloom_client import (
     Current,
     Deleted,
     Fault,
-    Happening,
     JobCancelled,
     JobFailed,
     JobState,
@@ -27,62 +22,23 @@ from tubeloom_client import (
     NotAllowed,
     NotFound,
     Problem,
-    Program,
     Reset,
-    Revision,
     Sets,
     Unreachable,
 )
 
-from tests.service import PATIENCE_SECONDS, SMALL, Service, running_service, until
+from tests.clients.ports import free_port
+from tests.clients.watching import Watcher
+from tests.service import SMALL, Service
 
 FINAL: dict[str, Any] = {"quality": "final", "width": 64, "height": 48, "samples": 1}
 LONG: dict[str, Any] = {"quality": "final", "width": 320, "height": 240, "samples": 65536}
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    folder = tmp_path_factory.mktemp("service")
-    with running_service(folder, workers=1, kept_revisions=3) as service:
-        yield service
-
-
-@pytest.fixture(scope="module")
 def client(service: Service) -> Iterator[Client]:
     with Client(service.url) as client:
         yield client
-
-
-def free_port() -> int:
-    """A port that nobody listens on."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port: int = free.getsockname()[1]
-        return port
-
-
-class Watcher(threading.Thread):
-    """Hears what happens to a program, until it is deleted."""
-
-    def __init__(self, program: Program) -> None:
-        super().__init__(daemon=True)
-        self.heard: Queue[Happening] = Queue()
-        self._program = program
-        self.start()
-
-    def run(self) -> None:
-        for happening in self._program.watch():
-            self.heard.put(happening)
-
-    def next(self) -> Happening:
-        """What happens next."""
-        return self.heard.get(timeout=PATIENCE_SECONDS)
-
-    def all(self) -> list[Happening]:
-        """What has happened until the end, and has not been asked for yet."""
-        self.join(PATIENCE_SECONDS)
-        assert not self.is_alive()
-        return [self.heard.get() for _ in range(self.heard.qsize())]
 
 
 def test_a_document_becomes_a_picture_and_a_scene(client: Client) -> None:
@@ -150,12 +106,13 @@ def test_a_stored_program_is_put_edited_undone_and_redone(client: Client) -> Non
     fourth = program.redo()
     assert fourth.digest == second.digest
     assert program.get() == edited
-    assert [each.revision for each in program.revisions()] == [4, 3, 2]
+    assert [each.revision for each in program.revisions()] == [4, 3, 2, 1]
     assert program.get(revision=3)["items"] != edited["items"]
     fifth = program.patch({"name": "Renamed"})
     assert fifth.name == "Renamed"
     sixth = program.patch([{"op": "replace", "path": "/name", "value": "Again"}])
     assert sixth.created_at >= fifth.created_at
+    assert [each.revision for each in program.revisions()] == [6, 5, 4, 3, 2]
     listed = {each.id: each for each in client.programs()}
     assert (listed[program.id].revision, listed[program.id].name) == (6, "Again")
     assert listed[program.id].updated_at == sixth.created_at
@@ -205,9 +162,9 @@ def test_all_who_update_at_the_same_time_have_their_way(client: Client) -> None:
 
 
 def test_a_watcher_hears_of_everything_until_the_end(client: Client) -> None:
-    program = client.program("watched")
+    program = client.program("heard-of")
     program.put(SMALL)
-    watcher = Watcher(client.program("watched"))
+    watcher = Watcher(client.program("heard-of"))
     assert watcher.next() == Current(1)
     made = [program.patch({"name": "A"}), program.undo()]
     program.delete()
@@ -217,38 +174,13 @@ def test_a_watcher_hears_of_everything_until_the_end(client: Client) -> None:
 def test_a_watcher_that_was_away_for_too_long_is_told_to_load_anew(client: Client) -> None:
     program = client.program("long-ago")
     program.put(SMALL)
-    for number in range(5):
+    for number in range(7):
         program.patch({"name": str(number)})
     watching = program.watch(after=1)
-    assert next(watching) == Reset(6)
+    assert next(watching) == Reset(8)
     watching.close()
-    watching = program.watch(after=4)
-    assert [next(watching).revision for _ in range(2)] == [5, 6]
-
-
-def test_nothing_is_missed_when_the_service_is_killed_while_one_watches(tmp_path: Path) -> None:
-    port = free_port()
-    with ExitStack() as stack:
-        client = stack.enter_context(Client(f"http://127.0.0.1:{port}", patience=PATIENCE_SECONDS))
-        program = client.program("outlives")
-        made: list[Revision] = []
-        with running_service(tmp_path, workers=1, port=port) as service:
-            made.append(program.put(SMALL))
-            watcher = Watcher(client.program("outlives"))
-            assert watcher.next() == Current(1)
-            made.append(program.patch({"name": "before"}))
-            assert watcher.next() == made[-1]
-            service.process.kill()
-            service.process.wait()
-        # Whoever writes meanwhile goes on as soon as there is a service again, and writes once.
-        writer = threading.Thread(target=lambda: made.append(program.patch({"name": "meanwhile"})))
-        writer.start()
-        with running_service(tmp_path, workers=1, port=port):
-            writer.join()
-            made += [program.patch({"name": str(number)}) for number in range(20)]
-            program.delete()
-            assert [each.revision for each in made] == list(range(1, 24))
-            assert watcher.all() == [*made[2:], Deleted(24)]
+    watching = program.watch(after=6)
+    assert [next(watching).revision for _ in range(2)] == [7, 8]
 
 
 def test_a_job_is_started_followed_and_fetched(client: Client) -> None:
@@ -296,43 +228,27 @@ def test_who_stops_waiting_cancels_the_job(client: Client) -> None:
     assert client.job(seen[0]).state().state == "cancelled"
 
 
-def test_a_job_is_followed_over_the_death_of_the_service(tmp_path: Path) -> None:
-    port = free_port()
-    with Client(f"http://127.0.0.1:{port}", patience=PATIENCE_SECONDS) as client:
-        with running_service(tmp_path, workers=1, port=port) as service:
-            wanted = {"quality": "final", "width": 320, "height": 240, "samples": 64}
-            job = client.start(SMALL, **wanted)  # type: ignore[arg-type]
-            pictures: Queue[bytes] = Queue()
-            states: list[JobState] = []
-            waiting = threading.Thread(target=lambda: pictures.put(job.wait(states.append)))
-            waiting.start()
-            until(lambda: states and states[-1].share > 0.3)
-            assert not states[-1].is_over
-            service.process.kill()
-            service.process.wait()
-        with running_service(tmp_path, workers=1, port=port):
-            assert pictures.get(timeout=2 * PATIENCE_SECONDS).startswith(b"\x89PNG")
-            assert (states[-1].state, states[-1].attempts) == ("done", 2)
-            waiting.join()
+def test_keys_are_sent_and_missed(guarded: tuple[Service, str]) -> None:
+    service, key = guarded
+    with Client(service.url) as client, pytest.raises(NotAllowed) as caught:
+        client.layout(SMALL)
+    assert caught.value.status == 401
+    with Client(service.url, key="wrong") as client, pytest.raises(NotAllowed):
+        client.layout(SMALL)
+    with Client(service.url, key=key) as client:
+        assert client.layout(SMALL).items
 
 
-def test_keys_are_sent_and_missed(tmp_path: Path) -> None:
-    with running_service(tmp_path, workers=1, auth="required") as service:
-        with Client(service.url) as client, pytest.raises(NotAllowed) as caught:
-            client.layout(SMALL)
-        assert caught.value.status == 401
-        with Client(service.url, key="wrong") as client, pytest.raises(NotAllowed):
-            client.layout(SMALL)
-
-
-def test_a_busy_service_is_asked_again_for_as_long_as_one_likes(tmp_path: Path) -> None:
-    with running_service(tmp_path, workers=1, rate_per_address="3/4second") as service:
-        with Client(service.url, patience=30.0) as patient:
-            assert [len(patient.render(SMALL)) > 0 for _ in range(5)] == [True] * 5
-        with Client(service.url, patience=0.0) as hasty, pytest.raises(Busy) as caught:
-            [hasty.render(SMALL) for _ in range(5)]
-        assert caught.value.retry_after is not None
-        assert 0 < caught.value.retry_after <= 5
+def test_a_busy_service_is_asked_again_for_as_long_as_one_likes(
+    guarded: tuple[Service, str],
+) -> None:
+    service, key = guarded
+    with Client(service.url, key=key, patience=30.0) as patient:
+        assert [len(patient.render(SMALL)) > 0 for _ in range(5)] == [True] * 5
+    with Client(service.url, key=key, patience=0.0) as hasty, pytest.raises(Busy) as caught:
+        [hasty.render(SMALL) for _ in range(5)]
+    assert caught.value.retry_after is not None
+    assert 0 < caught.value.retry_after <= 3
 
 
 def test_where_nobody_listens_patience_runs_out() -> None:

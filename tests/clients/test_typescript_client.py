@@ -3,66 +3,15 @@
 from __future__ import annotations
 
 import json
-import shutil
 import subprocess
-from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any
 
-import httpx
 import pytest
 
-from tests.clients.test_python_client import free_port
-from tests.conftest import require
-from tests.service import PATIENCE_SECONDS, SMALL, Service, running_service
-
-PACKAGE = Path(__file__).parents[2] / "clients" / "typescript"
-DRIVERS = Path(__file__).with_name("typescript")
-
-
-def tool(name: str) -> str:
-    """A program of the package's that it is made with."""
-    return str(PACKAGE / "node_modules" / ".bin" / name)
-
-
-def run(*command: str, folder: Path | None = None) -> str:
-    """What a command writes; it must succeed."""
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
-def installed(folder: Path, scripts: Mapping[str, str]) -> None:
-    """Install the package in ``folder`` as npm would, and compile scripts that use it."""
-    require(shutil.which("node"), "node is not installed")
-    require((PACKAGE / "node_modules").exists(), "run `npm ci` in clients/typescript")
-    package = folder / "node_modules" / "tubeloom-client"
-    package.mkdir(parents=True)
-    shutil.copy(PACKAGE / "package.json", package)
-    run(tool("tsc"), "--project", str(PACKAGE), "--outDir", str(package / "dist"))
-    for name, text in scripts.items():
-        (folder / name).write_text(text)
-    options = json.loads((PACKAGE / "tsconfig.json").read_text())["compilerOptions"]
-    options |= {"rootDir": ".", "outDir": ".", "declaration": False}
-    wanted = {"compilerOptions": options, "include": ["*.ts"], "exclude": []}
-    (folder / "tsconfig.json").write_text(json.dumps(wanted))
-    (folder / "package.json").write_text('{"type": "module"}')
-    run(tool("tsc"), folder=folder)
-
-
-@pytest.fixture(scope="module")
-def drivers(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder where our scripts lie compiled, beside the package."""
-    folder = tmp_path_factory.mktemp("drivers")
-    installed(folder, {path.name: path.read_text() for path in DRIVERS.glob("*.ts")})
-    return folder
-
-
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with running_service(tmp_path_factory.mktemp("service"), workers=1) as service:
-        yield service
+from tests.clients.documented import blocks, meant_for
+from tests.clients.ports import free_port
+from tests.clients.typescript_package import PACKAGE, run, tool
+from tests.service import Service
 
 
 def test_the_calls_that_everyone_needs(drivers: Path, service: Service) -> None:
@@ -92,63 +41,24 @@ def test_the_calls_that_everyone_needs(drivers: Path, service: Service) -> None:
     }
 
 
-def test_nothing_is_missed_when_the_service_is_killed_while_one_watches(
-    drivers: Path, tmp_path: Path
+@pytest.mark.parametrize("number", range(len(blocks("ts"))))
+def test_what_the_page_on_clients_shows_is_run_as_it_stands_there(
+    number: int, drivers: Path, service: Service
 ) -> None:
-    port = free_port()
-    with ExitStack() as stack:
-        with running_service(tmp_path, workers=1, port=port) as service:
-            with service.client() as client:
-                client.put("/v1/programs/outlives", json=SMALL).raise_for_status()
-                watcher = stack.enter_context(watching(drivers, service, "outlives"))
-                assert heard(watcher) == {"kind": "current", "revision": 1}
-                change(client, "before")
-                assert heard(watcher)["name"] == "before"
-            service.process.kill()
-            service.process.wait()
-        with running_service(tmp_path, workers=1, port=port) as service:
-            with service.client() as client:
-                for number in range(20):
-                    change(client, str(number))
-                client.delete("/v1/programs/outlives").raise_for_status()
-            rest, _ = watcher.communicate(timeout=PATIENCE_SECONDS)
-        told = [json.loads(line) for line in rest.splitlines()]
-        assert [each["revision"] for each in told] == list(range(3, 24))
-        assert [each["name"] for each in told[:-1]] == [str(number) for number in range(20)]
-        assert told[-1] == {"kind": "deleted", "revision": 23}
-        assert watcher.returncode == 0
+    script = drivers / f"meant{number}.js"
+    script.write_text(meant_for(service, (drivers / f"block{number}.js").read_text()))
+    said = subprocess.run(
+        ["node", script.name], cwd=drivers, capture_output=True, text=True, check=False
+    )
+    assert said.returncode == 0, said.stderr
+    assert said.stdout
 
 
-@contextmanager
-def watching(drivers: Path, service: Service, program: str) -> Iterator[subprocess.Popen[str]]:
-    """A process that writes down what happens to a program."""
-    command = ["node", "watch.js", service.url, program]
-    watcher = subprocess.Popen(command, cwd=drivers, stdout=subprocess.PIPE, text=True)
-    try:
-        yield watcher
-    finally:
-        watcher.kill()
-        watcher.communicate()
-
-
-def heard(watcher: subprocess.Popen[str]) -> dict[str, Any]:
-    """What it writes next."""
-    assert watcher.stdout is not None
-    found: dict[str, Any] = json.loads(watcher.stdout.readline())
-    return found
-
-
-def change(client: httpx.Client, name: str) -> None:
-    """Make a revision."""
-    headers = {"Content-Type": "application/merge-patch+json"}
-    body = json.dumps({"name": name}).encode()
-    client.patch("/v1/programs/outlives", content=body, headers=headers).raise_for_status()
-
-
-def test_a_wrong_key_is_a_problem_and_silence_an_error(drivers: Path, tmp_path: Path) -> None:
+def test_a_wrong_key_is_a_problem_and_silence_an_error(
+    drivers: Path, guarded: tuple[Service, str]
+) -> None:
     nobody = f"http://127.0.0.1:{free_port()}"
-    with running_service(tmp_path, workers=1, auth="required") as service:
-        said = run("node", "keys.js", service.url, nobody, folder=drivers)
+    said = run("node", "keys.js", guarded[0].url, nobody, folder=drivers)
     assert json.loads(said) == ["401", "TypeError"]
 
 
