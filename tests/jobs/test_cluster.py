@@ -74,10 +74,10 @@ def test_who_cancels_a_job_frees_a_processor_of_the_cluster_within_a_second(site
 
 
 def test_jobs_end_once_whatever_is_killed(site: Site) -> None:
-    query = "format=png&quality=final&width=160&height=120&samples=64"
+    query = "format=png&quality=final&width=96&height=72&samples=64"
+    documents = [program(f"among the dying {number}") for number in range(3)]
     with site.service.client() as client:
-        jobs = [start(client, query, program(f"among the dying {n}")) for n in range(4)]
-        jobs += [start(client, query, program("among the dying 0"))]
+        jobs = [start(client, query, document) for document in (*documents, documents[0])]
         at_work(client, jobs[0])
         site.cluster.kill_worker(0)
         site.cluster.kill_worker(1)
@@ -99,7 +99,7 @@ def test_jobs_end_once_whatever_is_killed(site: Site) -> None:
 
 def test_a_service_whose_cluster_is_not_there_lives_and_says_so(tmp_path: Path) -> None:
     nowhere = running_service(
-        tmp_path, workers=1, dask_scheduler="tcp://127.0.0.1:9", job_deadline_seconds=2
+        tmp_path, workers=1, dask_scheduler="tcp://127.0.0.1:9", job_deadline_seconds=1
     )
     with nowhere as service, service.client() as client:
         assert client.post("/v1/render?format=glb", json=program("here")).status_code == 200
