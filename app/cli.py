@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import sys
 from collections.abc import Iterator
@@ -18,6 +19,7 @@ from app.cli_options import of_gltf, of_motion, of_pictures, of_prints
 from app.errors import DocumentError, TubeloomError
 from app.formats.registry import FORMATS
 from app.output.media import SceneFormat
+from app.program.collection import collection_paused
 from app.settings import Settings
 
 if TYPE_CHECKING:
@@ -72,16 +74,19 @@ def serve(host: str | None, port: int | None, workers: int | None) -> None:
 
 
 def _serve(settings: Settings, processes: list[Launched]) -> None:
-    import socket
+    # What imports leave lives on: to look through it for garbage, now or later, takes its time.
+    with collection_paused():
+        import socket
 
-    import uvicorn
+        import uvicorn
 
-    from app.api.connections import connections
-    from app.api.journal import configure_logging
-    from app.main import create_app
+        from app.api.connections import connections
+        from app.api.journal import configure_logging
+        from app.main import create_app
 
-    configure_logging(settings.log_format)
-    app = create_app(settings, processes)
+        configure_logging(settings.log_format)
+        app = create_app(settings, processes)
+    gc.freeze()
 
     class Server(uvicorn.Server):
         async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:

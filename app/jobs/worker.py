@@ -22,12 +22,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from app import pipeline
 from app.answers import Answer, RenderOptions
 from app.errors import DocumentTooLarge, Fault, TubeloomError
 from app.jobs import channel
 from app.jobs.work import Crash, Ready, Reply, Report, Stage, Work
-from app.output.draft import draft_problem
+from app.program.collection import collection_paused
 from app.settings import Settings
 
 WARM_UP = b"""{
@@ -46,6 +45,10 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     end = socket.socket(fileno=int(sys.argv[1]))
     threading.Thread(target=_die_with_the_service, args=(end,), daemon=True).start()
+    # Imports leave next to no garbage, and to look for it would take a tenth of their time.
+    with collection_paused():
+        import app.pipeline  # noqa: F401 - before the settings come
+    gc.freeze()
     try:
         settings: Settings = channel.receive(end)[0]
         # So that a scene too large ends in an error here, and not in the system's choice of victim.
@@ -70,6 +73,8 @@ def do(
     send: Callable[[Report, bytes], None] = _unheard,
 ) -> tuple[Reply, bytes]:
     """Answer one work, and ``send`` reports if it wants them. What goes wrong is in the reply."""
+    from app import pipeline
+
     stages: list[tuple[str, float]] = []
     reported = -math.inf
     share_done = 0.0
@@ -110,13 +115,15 @@ def do(
 
 def _prepare(settings: Settings) -> Ready | Crash:
     """Load every kernel, before the first work comes."""
+    from app.output.draft import draft_problem
+
     reply, _ = do(Work(RenderOptions()), WARM_UP, settings)
     if isinstance(reply.outcome, Crash):
         return reply.outcome
     if isinstance(reply.outcome, TubeloomError):
         raise reply.outcome
     # Else a full collection in the midst of somebody's work would look, for 80 ms, at all that
-    # the imports have left.
+    # the kernels have left.
     gc.collect()
     gc.freeze()
     return Ready(draft_problem())
