@@ -11,12 +11,12 @@ import httpx
 import pytest
 
 from tests.api.event_streams import events
-from tests.service import SMALL, Service, large_program, running_service, until
+from tests.service import SMALL, Service, fresh, large_program, running_service, until
 
 
 def named(name: str) -> bytes:
-    """A small program of that name."""
-    return json.dumps({**SMALL, "name": name}).encode()
+    """A small program that nobody has asked for; each call gives another."""
+    return json.dumps({**SMALL, "name": fresh(name)}).encode()
 
 
 @pytest.mark.parametrize("path", ["render", "render?format=png", "layout", "convert?to=hif"])

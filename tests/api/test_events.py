@@ -6,7 +6,7 @@ import time
 import httpx
 
 from tests.api.event_streams import Event, events
-from tests.service import SMALL, Service, gone, large_program, until
+from tests.service import SMALL, Service, fresh, gone, large_program, until
 
 STREAM = {"accept": "text/event-stream"}
 
@@ -62,7 +62,8 @@ def test_who_leaves_a_final_picture_frees_the_processor_within_a_second(service:
         until(lambda: client.get("/readyz").json()["workers"]["warm"] == 2)
         spent = service.spent()
         query = "/v1/render?format=png&quality=final&samples=4096"
-        with client.stream("POST", query, headers=STREAM, json=SMALL) as response:
+        document = SMALL | {"name": fresh("Left")}
+        with client.stream("POST", query, headers=STREAM, json=document) as response:
             told = events(response)  # unnamed it would be closed, and the stream with it
             next(told)
             busy = until(lambda: service.busy_worker(spent))

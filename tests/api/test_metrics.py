@@ -4,7 +4,7 @@ import httpx
 from prometheus_client.parser import text_string_to_metric_families
 
 from tests.api.job_calls import LONG, program, start
-from tests.service import SMALL, until
+from tests.service import SMALL, fresh, until
 
 
 def samples(client: httpx.Client) -> Mapping[tuple[str, frozenset[tuple[str, str]]], float]:
@@ -25,7 +25,10 @@ def labels(**values: str) -> frozenset[tuple[str, str]]:
 def test_requests_and_their_stages_are_counted(client: httpx.Client) -> None:
     rendered = labels(method="POST", route="/v1/render", status="200")
     before = samples(client)
-    assert client.post("/v1/render", json={**SMALL, "name": "Not seen before"}).status_code == 200
+    assert (
+        client.post("/v1/render", json={**SMALL, "name": fresh("Not seen before")}).status_code
+        == 200
+    )
     assert client.post("/v1/render", content=b"no").status_code == 400
     after = samples(client)
 
@@ -58,7 +61,7 @@ def test_workers_are_counted(client: httpx.Client) -> None:
 
 def test_what_is_asked_again_is_counted_as_such(client: httpx.Client) -> None:
     before = samples(client)
-    document = {**SMALL, "name": "Asked twice, and nowhere else"}
+    document = {**SMALL, "name": fresh("Asked twice")}
     for _ in range(2):
         assert client.post("/v1/layout", json=document).status_code == 200
     after = samples(client)

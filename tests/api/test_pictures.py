@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
+import json
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -13,7 +14,7 @@ import pytest
 from PIL import Image
 
 from tests.api.event_streams import events
-from tests.service import SMALL
+from tests.service import SMALL, fresh
 
 CLAUSE = (Path(__file__).parents[2] / "examples" / "id3-clause-2.json").read_bytes()
 
@@ -88,8 +89,9 @@ def test_a_film_has_its_frames(client: httpx.Client, film: str) -> None:
 
 def test_the_frames_of_a_film_are_told_as_they_come(client: httpx.Client) -> None:
     query = "/v1/render?format=webp&width=320&height=240&frames=24"
+    document = json.loads(CLAUSE) | {"name": fresh("Filmed")}
     with client.stream(
-        "POST", query, headers={"accept": "text/event-stream"}, content=CLAUSE
+        "POST", query, headers={"accept": "text/event-stream"}, json=document
     ) as response:
         told = [event.data for event in events(response) if event.name == "progress"]
     drawing = [news["share"] for news in told if news["stage"] == "drawing"]

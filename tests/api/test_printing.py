@@ -7,7 +7,7 @@ import httpx
 import pytest
 import trimesh
 
-from tests.service import SMALL, Service
+from tests.service import SMALL, Service, fresh
 
 FAR = 1e6
 TOO_THIN: dict[str, Any] = {
@@ -88,7 +88,7 @@ def test_what_cannot_be_printed_is_named(client: httpx.Client) -> None:
 
 
 def test_time_is_told_once_for_all_tubes(client: httpx.Client) -> None:
-    document = SMALL | {"name": "Nobody has asked for this one yet"}
+    document = SMALL | {"name": fresh("Printed")}
     timing = client.post("/v1/render?format=stl", json=document).headers["server-timing"]
     assert timing.count("making-tubes;dur=") == 1
 

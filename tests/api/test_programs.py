@@ -5,7 +5,7 @@ import httpx
 import pytest
 
 from app.api.schema import HYPERGRAPH, NETLIST
-from tests.service import SMALL
+from tests.service import SMALL, fresh
 
 
 def glb_document(body: bytes) -> dict[str, object]:
@@ -142,7 +142,7 @@ def test_a_hypergraph_becomes_a_program_and_a_program_a_hypergraph(client: httpx
 
 
 def test_answers_say_where_the_time_went(client: httpx.Client) -> None:
-    document = {**SMALL, "name": "Not asked for before"}
+    document = {**SMALL, "name": fresh("Timed")}
     timing = client.post("/v1/render", json=document).headers["server-timing"]
     assert "reading;dur=" in timing
     assert "making-tubes;dur=" in timing
