@@ -50,7 +50,9 @@ export class Link {
   #done: number[] = [];
   #undone: number[] = [];
   #isGesture = false;
-  #isGestureNew = false;
+  /** The change that is wanted, and the one that was counted last. */
+  #wantedChange = 0;
+  #countedChange = 0;
 
   /** A client without patience lets the link tell sooner that the service does not answer. */
   constructor(client: Client, id: string, listener: LinkListener) {
@@ -100,12 +102,14 @@ export class Link {
   /** Let the stored program become this one. */
   send(program: ProgramDocument): void {
     this.#wanted = program;
+    if (!this.#isGesture) this.#wantedChange += 1;
     void this.#run();
   }
 
   /** What is sent from now on, until `endGesture`, is one change to undo. */
   beginGesture(): void {
-    this.#isGesture = this.#isGestureNew = true;
+    this.#isGesture = true;
+    this.#wantedChange += 1;
   }
 
   endGesture(): void {
@@ -168,16 +172,16 @@ export class Link {
 
   async #change(sent: ProgramDocument, wanted: ProgramDocument): Promise<void> {
     const edits = editsBetween(sent, wanted);
+    const change = this.#wantedChange;
     if (edits.length === 0) {
       this.#sent = wanted;
-      if (this.#wanted === wanted) this.#wanted = this.#sent;
       return;
     }
     try {
       const whole = edits.length > MOST_EDITS;
       const revision = await (whole ? this.#program.put(wanted) : this.#program.edit(...edits));
       this.#sent = wanted;
-      this.#count(revision);
+      this.#count(revision, change);
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
       if (error.status === 404) await this.#putAnew(wanted);
@@ -271,15 +275,15 @@ export class Link {
     }
   }
 
-  #count(revision: Revision): void {
+  #count(revision: Revision, change: number): void {
     const isNew = revision.revision > this.#state.revision;
     this.#take(revision);
     if (!isNew) return;
     this.#undone = [];
     const last = this.#done.at(-1);
-    if (this.#isGesture && !this.#isGestureNew && last !== undefined) this.#done.splice(-1, 1, last + 1);
+    if (change === this.#countedChange && last !== undefined) this.#done.splice(-1, 1, last + 1);
     else this.#done.push(1);
-    this.#isGestureNew = false;
+    this.#countedChange = change;
   }
 
   /** Take note of a revision. */

@@ -71,6 +71,9 @@ export function useTubeloom(of: TubeloomOptions): Tubeloom {
   const undo = useCallback(() => link.current?.undo(), []);
   const redo = useCallback(() => link.current?.redo(), []);
   const beginGesture = useCallback(() => link.current?.beginGesture(), []);
-  const endGesture = useCallback(() => link.current?.endGesture(), []);
+  // The end of a drag is told before where it ended is rendered, and so sent.
+  const endGesture = useCallback(() => {
+    requestAnimationFrame(() => setTimeout(() => link.current?.endGesture()));
+  }, []);
   return { ...state, program, undo, redo, beginGesture, endGesture };
 }

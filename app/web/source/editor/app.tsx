@@ -37,7 +37,7 @@ export function App(props: EditorProps): ReactElement {
 
 function Editor({ id, isNew }: EditorProps): ReactElement {
   const flow = useReactFlow<AppNode, Edge>();
-  const { theme, shown, next } = useTheme();
+  const { theme, switchTheme } = useTheme();
   const [graph, setGraph] = useState(example);
   const [frame, setFrame] = useState(FRAME);
   const [picked, setPicked] = useState<ReadonlySet<string>>(new Set());
@@ -138,7 +138,7 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
         name={frame.name ?? ""}
         onName={(name) => setFrame((now) => ({ ...now, name }))}
         theme={theme}
-        onTheme={next}
+        onTheme={switchTheme}
         commands={{
           undo: link.canUndo ? undo : undefined,
           redo: link.canRedo ? redo : undefined,
@@ -153,7 +153,7 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
         <Palette onAdd={add} />
         <section className="canvas" aria-label="Editor">
           <Editing.Provider value={acts}>
-            <Canvas graph={graph} setGraph={setGraph} colorMode={shown} onGesture={onGesture} />
+            <Canvas graph={graph} setGraph={setGraph} colorMode={theme} onGesture={onGesture} />
           </Editing.Provider>
         </section>
         <section className="preview" aria-label="In three dimensions">
@@ -162,7 +162,7 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
             selection={selection}
             onSelect={select}
             onClearance={setClearance}
-            theme={shown}
+            theme={theme}
           />
         </section>
       </main>

@@ -1,5 +1,4 @@
 import type { ReactElement } from "react";
-import type { Theme } from "./theme.ts";
 
 type Command = (() => void) | undefined;
 
@@ -26,7 +25,7 @@ const PICTURES: Record<string, string> = {
 interface HeaderProps {
   name: string;
   onName: (name: string) => void;
-  theme: Theme;
+  theme: "light" | "dark";
   onTheme: () => void;
   commands: Commands;
 }
@@ -65,7 +64,7 @@ export function Header({ name, onName, theme, onTheme, commands }: HeaderProps):
         <button type="button" onClick={commands.save}>
           Save
         </button>
-        <button type="button" aria-label={`Theme: ${theme}`} title={`Theme: ${theme}`} onClick={onTheme}>
+        <button type="button" aria-label="Dark theme" title="Dark theme" aria-pressed={theme === "dark"} onClick={onTheme}>
           <Picture of="theme" />
         </button>
       </div>

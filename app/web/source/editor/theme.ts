@@ -1,13 +1,10 @@
 import { useEffect, useState } from "react";
 
-export type Theme = "system" | "light" | "dark";
+const KEPT = "tubeloom.theme";
 
-const NAME = "tubeloom-theme";
-const THEMES: readonly Theme[] = ["system", "light", "dark"];
-
-/** How the page shall look: as the system does, or as was chosen here before. */
-export function useTheme(): { theme: Theme; shown: "light" | "dark"; next: () => void } {
-  const [theme, setTheme] = useState<Theme>(() => THEMES.find((each) => each === localStorage.getItem(NAME)) ?? "system");
+/** Light or dark: as the system prefers, until it is switched on one of the pages. */
+export function useTheme(): { theme: "light" | "dark"; switchTheme: () => void } {
+  const [kept, setKept] = useState(() => localStorage.getItem(KEPT));
   const [isDark, setIsDark] = useState(() => matchMedia("(prefers-color-scheme: dark)").matches);
   useEffect(() => {
     const preference = matchMedia("(prefers-color-scheme: dark)");
@@ -15,11 +12,14 @@ export function useTheme(): { theme: Theme; shown: "light" | "dark"; next: () =>
     preference.addEventListener("change", heed);
     return () => preference.removeEventListener("change", heed);
   }, []);
-  const shown = theme === "system" ? (isDark ? "dark" : "light") : theme;
+  const theme = (kept ?? (isDark ? "dark" : "light")) === "dark" ? "dark" : "light";
   useEffect(() => {
-    document.documentElement.dataset["theme"] = shown;
-    localStorage.setItem(NAME, theme);
-  }, [theme, shown]);
-  const next = () => setTheme(THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length] ?? "system");
-  return { theme, shown, next };
+    document.documentElement.dataset["theme"] = theme;
+  }, [theme]);
+  const switchTheme = () => {
+    const next = theme === "dark" ? "light" : "dark";
+    localStorage.setItem(KEPT, next);
+    setKept(next);
+  };
+  return { theme, switchTheme };
 }
