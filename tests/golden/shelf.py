@@ -19,7 +19,7 @@ PICTURES = Path(__file__).with_name("pictures")
 MATERIALS = get_args(MaterialName)
 QUALITIES = ("draft", "final")
 COLUMNS, ROWS = 3, 3
-WIDTH, HEIGHT = 384, 344
+SIZES = {"draft": (384, 344), "final": (288, 258)}
 
 SHAPES: dict[str, dict[str, Any]] = {
     "box": {"type": "box", "size": [1.3, 1.0, 1.0]},
@@ -94,7 +94,8 @@ COLORS = ("#e4572e", "#3a7ca5", "#e8b23a", "#6a994e", "#9d4edd", "#00a6a6", "#c2
 
 def query(quality: str) -> str:
     """What is asked of the service."""
-    return f"/v1/render?format=png&quality={quality}&width={WIDTH}&height={HEIGHT}&samples=64"
+    width, height = SIZES[quality]
+    return f"/v1/render?format=png&quality={quality}&width={width}&height={height}&samples=64"
 
 
 def path(material: str, quality: str) -> Path:

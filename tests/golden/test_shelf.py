@@ -31,6 +31,9 @@ SEEN = 0.03
 NOISE_OF_GLASS = 0.06
 """Light in glass goes many ways: of other samples, 64 as here, it is up to 0.05 different."""
 
+ALIKE = (("plastic", "metal"), ("plastic", "matte"), ("matte", "plain"))
+"""Materials that are most easily taken for each other."""
+
 
 @pytest.fixture(scope="module", params=["osmesa", "egl"])
 def client(
@@ -39,7 +42,7 @@ def client(
     """A client of a service that draws with the platform."""
     folder = tmp_path_factory.mktemp(request.param)
     with (
-        running_service(folder, gl_platform=request.param, workers=1) as service,
+        running_service(folder, gl_platform=request.param) as service,
         service.client() as client,
     ):
         yield client
@@ -60,9 +63,7 @@ def differences(expected: Floats, found: Floats) -> dict[str, float]:
     return dict(zip(SHAPES, parts, strict=True))
 
 
-@pytest.mark.parametrize("quality", QUALITIES)
-@pytest.mark.parametrize("material", MATERIALS)
-def test_every_shape_looks_as_it_should(client: httpx.Client, material: str, quality: str) -> None:
+def assert_looks_as_it_should(client: httpx.Client, material: str, quality: str) -> None:
     response = client.post(query(quality), json=document(material))
     assert response.status_code == 200, response.text
     found = pixels(Image.open(io.BytesIO(response.content)))
@@ -71,6 +72,25 @@ def test_every_shape_looks_as_it_should(client: httpx.Client, material: str, qua
     limit = NOISE_OF_GLASS if (material, quality) == ("glass", "final") else SEEN
     seen = {name: error for name, error in differences(expected, found).items() if error > limit}
     assert not seen
+
+
+@pytest.mark.parametrize("material", MATERIALS)
+def test_every_shape_looks_as_it_should_in_a_draft(client: httpx.Client, material: str) -> None:
+    assert_looks_as_it_should(client, material, "draft")
+
+
+# OpenGL has no part in final pictures: they are the same whatever it is drawn with.
+@pytest.mark.parametrize("client", ["osmesa"], indirect=True)
+@pytest.mark.parametrize("material", MATERIALS)
+def test_every_shape_looks_as_it_should_when_final(client: httpx.Client, material: str) -> None:
+    assert_looks_as_it_should(client, material, "final")
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_the_measure_sees_another_material(quality: str) -> None:
+    for one, other in ALIKE:
+        pictures = [pixels(Image.open(path(material, quality))) for material in (one, other)]
+        assert max(differences(*pictures).values()) > SEEN, (one, other)
 
 
 def test_the_measure_sees_another_colour_and_another_shape() -> None:
