@@ -154,7 +154,7 @@ def standard_error_of(arguments: list[str], folder: Path) -> str:
 
 def test_long_work_shows_a_bar_and_short_work_does_not(program: Path) -> None:
     large = program.with_name("large.json")
-    large.write_bytes(large_program(1500))
+    large.write_bytes(large_program(600))
     folder = program.parent
     assert "%" in standard_error_of(["render", str(large), "-o", "large.glb"], folder)
     assert "%" not in standard_error_of(["convert", str(program), "-o", "small.json"], folder)
