@@ -8,7 +8,9 @@ BIN := $(VENV)/bin
 PORT ?= 8000
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: help run setup setup-dev test check format bench faults load openapi palettes pictures lock clean
+WEB_SOURCES := $(shell find app/web/source app/web/*.json app/web/*.js clients/typescript/src clients/react-flow/src examples -type f 2>/dev/null)
+
+.PHONY: help run setup setup-dev web test check format bench faults load openapi palettes pictures lock clean
 
 help:  ## list what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  \1\t/' | expand -t 14
@@ -16,8 +18,9 @@ help:  ## list what can be made
 run: setup  ## set up what is missing, and serve on http://127.0.0.1:$(PORT)
 	@exec $(BIN)/tubeloom serve --port $(PORT)
 
-setup: $(VENV)/runtime.done  ## a virtual environment with what serving needs
-setup-dev: $(VENV)/dev.done  ## … and what testing needs
+setup: $(VENV)/runtime.done app/web/built  ## a virtual environment with what serving needs, and the pages
+setup-dev: $(VENV)/dev.done app/web/built  ## … and what testing needs
+web: app/web/built  ## build the pages for browsers
 
 $(VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "Tubeloom needs Python 3.11, 3.12 or 3.13." >&2; exit 1; }
@@ -32,6 +35,9 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.svg
 	$(BIN)/tubeloom render examples/paper-curves.json -o $(VENV)/paper.glb
 	@touch $@
+
+app/web/built: $(WEB_SOURCES) tools/build-web.sh | $(VENV)/bin/python
+	tools/build-web.sh $(BIN)/python
 
 $(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json clients/typescript/package-lock.json $(VENV)/runtime.done
 	tools/system-packages.sh test
@@ -50,11 +56,12 @@ test: check  ## everything that must hold: checks, then all tests
 	$(BIN)/python -m pytest -q --doctest-modules app
 	$(BIN)/python -m pytest -n 2 --dist loadfile
 
-check: setup-dev  ## format, lint, types, import rules
+check: setup-dev  ## format, lint, types, import rules, of pages too
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	PATH="$$PATH:$(abspath $(BIN))" npm --prefix app/web run --silent check
 
 format: setup-dev  ## put the code in order
 	$(BIN)/ruff format .
@@ -83,4 +90,4 @@ lock:  ## resolve dependencies anew (needs uv)
 	tools/lock.sh
 
 clean:  ## remove everything that can be made again
-	rm -rf $(VENV) tests/node/node_modules benchmarks/node/node_modules clients/typescript/node_modules clients/typescript/dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks
+	rm -rf $(VENV) app/web/built app/web/node_modules tests/node/node_modules benchmarks/node/node_modules clients/typescript/node_modules clients/typescript/dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks

@@ -17,6 +17,7 @@ from app.api import (
     health,
     jobs,
     metrics,
+    pages,
     programs,
     schema,
     stored_programs,
@@ -54,7 +55,7 @@ curl --data-binary @program.json 'http://127.0.0.1:8000/v1/render?format=png' -o
 """
 
 
-ROUTED = (programs, jobs, stored_programs, stored_views, catalogue, health, metrics, docs)
+ROUTED = (programs, jobs, stored_programs, stored_views, catalogue, health, metrics, docs, pages)
 """Modules with routes, in the order in which the interface's description shows them."""
 
 
@@ -116,7 +117,7 @@ def create_app(settings: Settings | None = None, launched: list[Launched] | None
     for part in ROUTED:
         # To include the router would have each request look for its route three times over.
         app.router.routes.extend(part.router.routes)
-    app.router.routes.append(docs.assets())
+    app.router.routes += [docs.assets(), pages.assets()]
     app.openapi = lambda: schema.openapi(app)  # type: ignore[method-assign]  # FastAPI's own way
     return app
 

@@ -7,3 +7,4 @@ flags=(--universal --python-version 3.11 --generate-hashes --no-annotate --no-he
 uv pip compile pyproject.toml "${flags[@]}" -o requirements.lock
 uv pip compile pyproject.toml --group dev -c requirements.lock "${flags[@]}" -o requirements-dev.lock
 uv pip compile pyproject.toml --group bench -c requirements-dev.lock "${flags[@]}" -o requirements-bench.lock
+uv pip compile --group node "${flags[@]}" -o requirements-node.lock

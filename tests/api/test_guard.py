@@ -19,15 +19,21 @@ from tests.api.raw import exchange, host_of, status_of
 from tests.service import SMALL, Service, until
 
 OPEN = {
+    "GET /",
     "GET /docs",
     "GET /docs/assets/{}",
+    "GET /editor",
     "GET /healthz",
+    "GET /litegraph",
     "GET /openapi.json",
     "GET /readyz",
+    "GET /tube-viewer.js",
     "GET /v1/formats",
     "GET /v1/materials",
     "GET /v1/notations",
     "GET /v1/palettes",
+    "GET /viewer",
+    "GET /web/{}",
 }
 """What anybody may see; here once more, so that nobody opens a route by mistake."""
 

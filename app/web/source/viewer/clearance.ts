@@ -1,0 +1,35 @@
+import { Group, Mesh, MeshBasicMaterial, TorusGeometry, Vector3, type Camera } from "three";
+import type { Layout } from "tubeloom-client";
+import { FROM_DOCUMENT } from "./scene.ts";
+
+/** What is proven of distances. */
+export type Clearance = NonNullable<Layout["clearance"]>;
+
+/** A ring around each place where hyperedges come too near, which always faces whoever looks. */
+export class ConflictMarks {
+  readonly group = new Group();
+  readonly #ring = new TorusGeometry(1, 0.12, 8, 40);
+  readonly #paint = new MeshBasicMaterial({ color: 0xe11d48, depthTest: false, transparent: true });
+
+  /** Mark these places; each ring has this radius. */
+  show(conflicts: Clearance["conflicts"], radius: number): void {
+    this.group.clear();
+    for (const { place } of conflicts) {
+      const [x = 0, y = 0, z = 0] = place;
+      const ring = new Mesh(this.#ring, this.#paint);
+      ring.position.copy(new Vector3(x, y, z).applyMatrix4(FROM_DOCUMENT));
+      ring.scale.setScalar(radius);
+      ring.renderOrder = 10;
+      this.group.add(ring);
+    }
+  }
+
+  face(camera: Camera): void {
+    for (const ring of this.group.children) ring.quaternion.copy(camera.quaternion);
+  }
+
+  dispose(): void {
+    this.#ring.dispose();
+    this.#paint.dispose();
+  }
+}

@@ -1,0 +1,57 @@
+import { HELP } from "./keyboard.ts";
+import { STYLES } from "./styles.ts";
+
+/** What the element is made of. */
+export interface Parts {
+  stage: HTMLElement;
+  canvas: HTMLCanvasElement;
+  labels: HTMLElement;
+  progress: HTMLElement;
+  status: HTMLElement;
+  toolbar: HTMLElement;
+  list: HTMLElement;
+  live: HTMLElement;
+}
+
+/** Fills the element's shadow tree. */
+export function build(shadow: ShadowRoot): Parts {
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync(STYLES);
+  shadow.adoptedStyleSheets = [sheet];
+  const canvas = make("canvas", { "aria-hidden": "true" });
+  const labels = make("div", { id: "labels", part: "labels", "aria-hidden": "true" });
+  const stage = make("div", {
+    id: "stage",
+    part: "stage",
+    role: "application",
+    "aria-roledescription": "3D picture",
+    "aria-label": "Tubeloom",
+    "aria-describedby": "help",
+    tabindex: "0",
+  });
+  stage.append(canvas, labels);
+  const progress = make("div", { id: "progress", role: "progressbar", "aria-label": "Loading" });
+  const status = make("div", { id: "status", part: "status", role: "status" });
+  const toolbar = make("div", {
+    id: "toolbar",
+    part: "toolbar",
+    role: "toolbar",
+    "aria-label": "Picture",
+  });
+  for (const each of [progress, status, toolbar]) each.hidden = true;
+  const list = make("div", { id: "list", part: "list", role: "listbox", tabindex: "0" });
+  const help = make("p", { id: "help", class: "unseen" });
+  help.textContent = HELP;
+  const live = make("p", { id: "live", class: "unseen", "aria-live": "polite" });
+  shadow.replaceChildren(stage, progress, status, toolbar, list, help, live);
+  return { stage, canvas, labels, progress, status, toolbar, list, live };
+}
+
+function make<Tag extends "div" | "p" | "canvas">(
+  tag: Tag,
+  attributes: Record<string, string>,
+): HTMLElementTagNameMap[Tag] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  return made;
+}

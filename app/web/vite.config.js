@@ -1,0 +1,44 @@
+import { fileURLToPath } from "node:url";
+import { defineConfig } from "vite";
+
+const here = (path) => fileURLToPath(new URL(path, import.meta.url));
+
+export default defineConfig({
+  root: here("source"),
+  base: "/",
+  resolve: {
+    alias: {
+      "tubeloom-client": here("../../clients/typescript/src/index.ts"),
+      "tubeloom-react-flow": here("../../clients/react-flow/src/index.ts"),
+    },
+    // The adapter lies elsewhere, and uses the editor's own copy of what both need.
+    dedupe: ["react", "react-dom", "@xyflow/react"],
+  },
+  build: {
+    outDir: here("built"),
+    emptyOutDir: true,
+    target: "es2022",
+    assetsInlineLimit: 0,
+    assetsDir: "web",
+    modulePreload: { polyfill: false },
+    chunkSizeWarningLimit: 900,
+    rolldownOptions: {
+      input: {
+
+        index: here("source/index.html"),
+        viewer: here("source/viewer.html"),
+        editor: here("source/editor.html"),
+
+
+        "tube-viewer": here("source/tube-viewer.ts"),
+      },
+      output: {
+        // Pages of others name this file; all else is named by its contents.
+        entryFileNames: ({ name }) =>
+          name === "tube-viewer" ? "tube-viewer.js" : "web/[name]-[hash].js",
+      },
+      preserveEntrySignatures: "strict",
+    },
+  },
+  server: { proxy: { "/v1": "http://127.0.0.1:8000" } },
+});
