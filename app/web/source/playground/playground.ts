@@ -1,0 +1,247 @@
+import "../tube-viewer.ts";
+import { TubeViewer, type TubeEvents } from "../viewer/element.ts";
+import { complete } from "./completion.ts";
+import { copy, curlOf, fileOf } from "./curl.ts";
+import { open, type Opened } from "./documents.ts";
+import { Downloads } from "./downloads.ts";
+import { takeFiles } from "./dropping.ts";
+import { ProgramEditor } from "./editor.ts";
+import { contentsOf, DEFAULT_EXAMPLE, EXAMPLES } from "./examples.ts";
+import { fragmentOf, read } from "./link.ts";
+import { Options } from "./options.ts";
+import { calm, part, say, warn } from "./page.ts";
+import { parse, rangeOfThing, thingAt, valueAt, type Parsed, type Range } from "./places.ts";
+import { place } from "./popovers.ts";
+import { Problems } from "./problems.ts";
+import { rewrite } from "./rewriting.ts";
+import { troubleOf } from "./service.ts";
+import { share } from "./split.ts";
+import { Stills, type Quality } from "./stills.ts";
+import { switchTheme } from "./theme.ts";
+import { countsOf, verdictOf } from "./verdict.ts";
+
+const KEPT = "tubeloom.text";
+const TYPING_MILLISECONDS = 150;
+const DRAWING_MILLISECONDS = { interactive: 0, draft: 250, final: 900 };
+
+const viewer = part("tube-viewer", TubeViewer);
+const verdict = part("#verdict", HTMLElement);
+const counts = part("#counts", HTMLElement);
+const examples = part("#example", HTMLSelectElement);
+
+/** The text as it is now, what is right in it or not. */
+let parsed: Parsed = parse("");
+/** The last text that could be shown. */
+let shown = "";
+let isKept = false;
+let view: readonly [number, number, number] | undefined;
+
+const editor = new ProgramEditor(part("#editor", HTMLElement), complete, {
+  change(text, isTyped) {
+    parsed = parse(text);
+    problems.show(parsed);
+    options.show(parsed);
+    if (!isTyped) return;
+    examples.value = "";
+    if (isKept) localStorage.setItem(KEPT, text);
+    showSoon();
+  },
+  cursor: () => selectInPicture(),
+});
+const problems = new Problems(editor, part("#summary", HTMLElement), part("#list", HTMLElement));
+const options = new Options(part("#options", HTMLElement), (path, value) => {
+  if (parsed.errors.length > 0) {
+    warn("The text must be right before options can be written into it.");
+    return;
+  }
+  editor.apply(rewrite(parsed, path, value));
+  if (path[0] === "view") view = viewOf(parsed);
+});
+const stills = new Stills(
+  {
+    image: part("#still", HTMLImageElement),
+    drawing: part("#drawing", HTMLElement),
+    doing: part("#doing", HTMLElement),
+    share: part("#share", HTMLProgressElement),
+    cancel: part("#cancel", HTMLButtonElement),
+    again: part("#again", HTMLButtonElement),
+  },
+  () => draw(),
+  warn,
+);
+new Downloads(part("#downloads", HTMLElement), () => ({
+  text: editor.text,
+  name: valueAt(parsed, ["name"]),
+  picture: stills.quality === "final" ? stills.query(...size()) : `format=png&${stills.query(...size()).replace(/^format=\w+&/, "")}`,
+}));
+
+function size(): [number, number] {
+  return [Math.max(viewer.clientWidth, 64), Math.max(viewer.clientHeight, 64)];
+}
+
+function show(): void {
+  if (parsed.errors.length > 0) return;
+  shown = parsed.text;
+  viewer.program = shown;
+  drawSoon[stills.quality]();
+}
+const showSoon = calm(show, TYPING_MILLISECONDS);
+
+function draw(): void {
+  void stills.draw(shown, ...size());
+}
+const drawSoon = {
+  interactive: () => undefined,
+  draft: calm(draw, DRAWING_MILLISECONDS.draft),
+  final: calm(draw, DRAWING_MILLISECONDS.final),
+};
+
+function viewOf(of: Parsed): readonly [number, number, number] {
+  if (valueAt(of, ["layout", "dimensions"]) === 2) return [0, 0, 1];
+  const from = valueAt(of, ["view", "from"]);
+  return Array.isArray(from) ? (from as unknown as [number, number, number]) : [0.2, -1, 1];
+}
+
+/** Put a document in place of the text, and show it from where it says. */
+function put({ text }: Opened, example = ""): void {
+  warn(undefined);
+  editor.text = text;
+  examples.value = example;
+  problems.problem = undefined;
+  problems.clearance = undefined;
+  problems.show(parsed);
+  // The viewer itself takes its first view from the document.
+  view = shown === "" ? undefined : viewOf(parsed);
+  show();
+}
+
+async function openText(contents: string, example?: string): Promise<void> {
+  try {
+    put(await open(contents), example);
+  } catch (error) {
+    warn(troubleOf(error));
+  }
+}
+
+async function openExample(name: string): Promise<void> {
+  const example = EXAMPLES.find((each) => each.name === name);
+  try {
+    if (example === undefined) throw new Error(`There is no example ${name}.`);
+    await openText(await contentsOf(example), name);
+  } catch (error) {
+    warn(troubleOf(error));
+  }
+}
+
+/** Begin with what the address asks for, else with what was typed last, else with an example. */
+async function begin(): Promise<void> {
+  const kept = localStorage.getItem(KEPT);
+  try {
+    const asked = await read(location.hash);
+    isKept = asked === undefined;
+    if (asked && "program" in asked) await openText(asked.program);
+    else if (asked) await openExample(asked.example);
+    else if (kept) put({ text: kept, isConverted: false });
+    else await openExample(DEFAULT_EXAMPLE);
+  } catch (error) {
+    await openExample(DEFAULT_EXAMPLE);
+    warn(troubleOf(error));
+  }
+}
+
+function selectInPicture(): void {
+  const things = editor.cursors.map((offset) => thingAt(parsed, offset));
+  viewer.selection = things.filter((thing) => thing !== undefined);
+}
+
+function on<Name extends keyof TubeEvents>(name: Name, act: (detail: TubeEvents[Name]) => void): void {
+  viewer.addEventListener(name, (event) => act((event as CustomEvent<TubeEvents[Name]>).detail));
+}
+
+on("tube-load", (detail) => {
+  problems.problem = undefined;
+  problems.show(parsed);
+  viewer.classList.remove("refused");
+  counts.textContent = countsOf(detail);
+  if (valueAt(parsed, ["layout", "clearance"]) === null) tell("none", "Distances are not looked at.");
+  else if (verdict.textContent === "") tell("none", "Looking at distances …");
+  else verdict.classList.add("old");
+  if (view) viewer.look(view);
+  view = undefined;
+  selectInPicture();
+});
+on("tube-problem", ({ problem }) => {
+  problems.problem = problem;
+  problems.show(parsed);
+  viewer.classList.add("refused");
+});
+on("tube-clearance", ({ clearance }) => {
+  problems.clearance = clearance;
+  problems.show(parsed);
+  const { verdict: kind, text } = verdictOf(clearance);
+  tell(kind, text);
+});
+on("tube-select", ({ things }) => {
+  const ranges = things.map((thing) => rangeOfThing(parsed, thing));
+  editor.select(ranges.filter((range): range is Range => range !== undefined));
+});
+
+function tell(kind: "none" | "good" | "bad", text: string): void {
+  verdict.classList.remove("old");
+  verdict.dataset["verdict"] = kind;
+  if (verdict.textContent !== text) verdict.textContent = text;
+  verdict.title = text;
+}
+
+async function copied(button: HTMLButtonElement, what: string, text: () => string | Promise<string>): Promise<void> {
+  try {
+    await copy(await text());
+    say(`${what} is on the clipboard.`);
+    button.classList.add("done");
+    setTimeout(() => button.classList.remove("done"), 1500);
+  } catch (error) {
+    warn(troubleOf(error));
+  }
+}
+
+const copyCurl = part("#copy-curl", HTMLButtonElement);
+copyCurl.addEventListener("click", () => {
+  const file = fileOf(valueAt(parsed, ["name"]), stills.quality === "interactive" ? "glb" : "png");
+  void copied(copyCurl, "The command", () => curlOf(location.origin, stills.query(...size()), file, editor.text));
+});
+const copyLink = part("#copy-link", HTMLButtonElement);
+copyLink.addEventListener("click", () => {
+  void copied(copyLink, "The link", async () => {
+    const fragment = examples.value ? `#example=${examples.value}` : await fragmentOf(editor.text);
+    history.replaceState(null, "", fragment);
+    return location.href;
+  });
+});
+
+examples.append(new Option("Example …", ""), ...EXAMPLES.map(({ name, title }) => new Option(title, name)));
+examples.addEventListener("change", () => {
+  if (examples.value) void openExample(examples.value);
+});
+part("#quality", HTMLFieldSetElement).addEventListener("change", (event) => {
+  warn(undefined);
+  stills.quality = (event.target as HTMLInputElement).value as Quality;
+  document.body.dataset["quality"] = stills.quality;
+  draw();
+});
+part("#notice button", HTMLButtonElement).addEventListener("click", () => warn(undefined));
+place(part("#options", HTMLElement), part("#show-options", HTMLButtonElement));
+place(part("#downloads", HTMLElement), part("#show-downloads", HTMLButtonElement));
+part("#options", HTMLElement).addEventListener("beforetoggle", () => void options.learn(parsed), { once: true });
+takeFiles(
+  part("#drop", HTMLElement),
+  part("#open", HTMLButtonElement),
+  part("#file", HTMLInputElement),
+  (contents) => void openText(contents),
+);
+share(part("main", HTMLElement), part("#split", HTMLElement));
+switchTheme(part("#theme", HTMLButtonElement), (isDark) => {
+  viewer.setAttribute("theme", isDark ? "dark" : "light");
+  editor.isDark = isDark;
+});
+window.addEventListener("hashchange", () => void begin());
+void begin();
