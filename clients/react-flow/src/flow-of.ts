@@ -9,6 +9,7 @@ import {
   leave,
   MIDDLE,
   pick,
+  rounded,
   type Attachment,
   type FlowEdge,
   type FlowHandle,
@@ -24,9 +25,15 @@ import { programOf } from "./program-of.js";
 /** What the adapter keeps in an item's or a hyperedge's `data.flow`. */
 interface Kept extends Partial<Place>, Partial<Size> {
   type?: string;
+  asIs?: boolean;
   handles?: FlowHandle[];
   data?: Record<string, unknown>;
   edge?: boolean;
+}
+
+interface NodeOptions {
+  scale: number;
+  type: string | undefined;
 }
 
 const COLUMNS = 6;
@@ -62,7 +69,7 @@ export function flowOf(
     const middle = shown
       ? { x: shown.center[0] * whole.scale, y: -shown.center[1] * whole.scale }
       : middleIn(item, number, parent, whole.scale);
-    const node = nodeOf(item, kept, size, middleless.has(item.id), options.type);
+    const node = nodeOf(item, kept, size, middleless.has(item.id), { ...whole, type: options.type });
     const corner = parent ? { x: parent.x - parent.width / 2, y: parent.y - parent.height / 2 } : { x: 0, y: 0 };
     const place = {
       x: middle.x - corner.x + (whole.origin[0] - 0.5) * size.width,
@@ -70,7 +77,11 @@ export function flowOf(
     };
     const isOurs = isPlace(kept) && isOurPlace(node, kept, item, whole);
     node.position = isOurs ? { x: kept.x, y: kept.y } : place;
-    if (!isOurs && item.data?.["flow"] === undefined) node.data["placed"] = node.position;
+    if (!isPlace(kept)) {
+      node.data["placed"] = node.position;
+      node.data["asIs"] = true;
+      if (item.position != null) node.data["position"] = item.position;
+    }
     nodes.push(node);
     const within = new Middles([node], whole.origin).of({ ...node, parentId: undefined });
     middles.set(item.id, { x: corner.x + within.x, y: corner.y + within.y, ...size });
@@ -80,8 +91,9 @@ export function flowOf(
   return { nodes, edges };
 }
 
-function nodeOf(item: Item, kept: Kept, size: Size, needsMiddle: boolean, type: string | undefined): FlowNode {
-  const own = leave(item.data ?? {}, ["flow"]);
+function nodeOf(item: Item, kept: Kept, size: Size, needsMiddle: boolean, options: NodeOptions): FlowNode {
+  const { scale, type } = options;
+  const own = isPlace(kept) ? leave(item.data ?? {}, ["flow"]) : (item.data ?? {});
   const data: Record<string, unknown> = { ...pick(item, ITEM_FIELDS), ...kept.data };
   delete data["data"];
   if (Object.keys(own).length > 0) data["data"] = own;
@@ -91,10 +103,12 @@ function nodeOf(item: Item, kept: Kept, size: Size, needsMiddle: boolean, type: 
   const isLacking = needsMiddle && !handles.some(({ id }) => id === MIDDLE);
   data["handles"] = isLacking ? [...handles, { id: MIDDLE, side: "top" }] : handles;
   if (item.position != null) data["z"] = item.position[2];
-  if (kept.width !== undefined && box) {
+  if (kept.asIs) data["asIs"] = true;
+  else if (isPlace(kept) && box) {
     // What follows from the node is not said again, so that it goes on to follow from it.
     if (isSame(points, pointsOf(handles.filter(({ id }) => id !== MIDDLE), box))) delete data["attachment_points"];
-    delete data["shape"];
+    const [width, height] = [rounded(size.width / scale), rounded(size.height / scale)];
+    if (kept.width !== undefined && isSame(box.slice(0, 2), [width, height])) delete data["shape"];
   }
   const name = kept.type ?? type;
   return {
@@ -131,11 +145,8 @@ function takeHyperedge(
 ): void {
   const { id, attachments } = hyperedge;
   const kept = keptOf(hyperedge);
-  const own = leave(hyperedge.data ?? {}, ["flow", "rest"]);
-  const data: Record<string, unknown> = {
-    ...pick(hyperedge, HYPEREDGE_FIELDS),
-    ...((hyperedge.data?.["rest"] ?? {}) as object),
-  };
+  const own = isPlace(kept) || kept.edge ? leave(hyperedge.data ?? {}, ["flow"]) : (hyperedge.data ?? {});
+  const data: Record<string, unknown> = { ...pick(hyperedge, HYPEREDGE_FIELDS), ...kept.data };
   delete data["data"];
   if (Object.keys(own).length > 0) data["data"] = own;
   const [first, second] = attachments;
@@ -168,8 +179,10 @@ function between(attachments: readonly Attachment[], middles: ReadonlyMap<string
   return { x: sum.x / Math.max(places.length, 1), y: sum.y / Math.max(places.length, 1) };
 }
 
+/** What is kept; `flow` may also be somebody else's word. */
 function keptOf({ data }: { data?: Record<string, unknown> | null }): Kept {
-  return (data?.["flow"] ?? {}) as Kept;
+  const kept = (data?.["flow"] ?? {}) as Kept;
+  return isPlace(kept) || kept.edge === true ? kept : {};
 }
 
 /** React Flow wants containers before what they contain. */

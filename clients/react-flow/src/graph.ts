@@ -75,7 +75,7 @@ export const ITEM_FIELDS: readonly string[] = [...LOOK, "shape", "rotation", "at
 export const HYPEREDGE_FIELDS: readonly string[] = [...LOOK, "radius", "join_height", "data"];
 
 /** Names in a node's data that are the adapter's own. */
-export const OWN_FIELDS: readonly string[] = ["handles", "placed", "z"];
+export const OWN_FIELDS: readonly string[] = ["handles", "placed", "position", "z", "asIs"];
 
 /** The fields of these names that say anything. */
 export function pick(from: object, names: readonly string[]): Record<string, unknown> {
@@ -105,7 +105,7 @@ export function rounded(value: number): number {
   return Math.round(value * 1e4) / 1e4 || 0;
 }
 
-export function isPlace(value: unknown): value is Place {
-  const place = value as Place | undefined;
+export function isPlace<Value>(value: Value): value is Value & Place {
+  const place = value as Partial<Place> | undefined;
   return typeof place?.x === "number" && typeof place.y === "number";
 }

@@ -54,13 +54,13 @@ export function programOf(
       return edge.source === node.id ? end(edge.target, edge.targetHandle) : undefined;
     });
     const attachments = onceEach(ends);
-    const flow = isSame(node.data["placed"], node.position) ? {} : { flow: placeOf(node) };
+    const flow = isSame(node.data["placed"], node.position) ? {} : placeOf(node);
     if (attachments.length > 1) hyperedges.push(hyperedgeOf(node.id, node.data, attachments, flow));
   }
   for (const { id, data = {}, source, sourceHandle, target, targetHandle } of edges) {
     if (!points.has(source) || !points.has(target)) continue;
     const attachments = onceEach([end(source, sourceHandle), end(target, targetHandle)]);
-    const flow = { flow: { edge: true } };
+    const flow = { edge: true };
     if (attachments.length > 1) hyperedges.push(hyperedgeOf(id, data, attachments, flow));
   }
   return { ...options.frame, items, hyperedges };
@@ -72,11 +72,14 @@ function itemOf(node: FlowNode, middles: Middles, options: Required<FlowOptions>
   const parent = parentId === undefined ? {} : { parent: parentId };
   const own = fields.data ?? {};
   if (isSame(data["placed"], node.position)) {
-    return { ...fields, id, ...parent, ...(isEmpty(own) ? {} : { data: own }) };
+    const position = pick(data, ["position"]) as Partial<Item>;
+    return { ...fields, id, ...parent, ...position, ...(isEmpty(own) ? {} : { data: own }) };
   }
   const { scale, height } = options;
   const size = sizeOf(node);
-  const box = size && [rounded(size.width / scale), rounded(size.height / scale), height];
+  // Whoever made the item has said all of its shape; the node was only fitted to it.
+  const isAsIs = data["asIs"] === true;
+  const box = size && !isAsIs && [rounded(size.width / scale), rounded(size.height / scale), height];
   const shape = fields.shape ?? (box ? { type: "box" as const, size: box as [number, number, number] } : undefined);
   const handles = (data["handles"] ?? []) as readonly FlowHandle[];
   const named = handles.filter((handle) => handle.id !== MIDDLE);
@@ -88,6 +91,7 @@ function itemOf(node: FlowNode, middles: Middles, options: Required<FlowOptions>
     ...placeOf(node),
     ...size,
     ...(type === undefined ? {} : { type }),
+    ...(isAsIs ? { asIs: true } : {}),
     ...(handles.length > 0 ? { handles } : {}),
     ...(isEmpty(rest) ? {} : { data: rest }),
   };
@@ -105,7 +109,8 @@ function itemOf(node: FlowNode, middles: Middles, options: Required<FlowOptions>
 function hyperedgeOf(id: string, data: object, attachments: Attachment[], flow: object): Hyperedge {
   const fields = pick(data, HYPEREDGE_FIELDS) as Partial<Hyperedge>;
   const rest = leave(data, [...HYPEREDGE_FIELDS, ...OWN_FIELDS]);
-  const own: object = { ...fields.data, ...flow, ...(isEmpty(rest) ? {} : { rest }) };
+  const kept = { ...flow, ...(isEmpty(rest) ? {} : { data: rest }) };
+  const own: object = { ...fields.data, ...(isEmpty(flow) ? {} : { flow: kept }) };
   return { ...fields, id, attachments, ...(isEmpty(own) ? {} : { data: own as NonNullable<Hyperedge["data"]> }) };
 }
 

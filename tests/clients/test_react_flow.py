@@ -1,0 +1,73 @@
+"""The adapter for React Flow: what can do without a browser, against the real service."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.clients.ports import free_port
+from tests.clients.typescript_package import installed
+from tests.service import PATIENCE_SECONDS, Service, running_service
+
+ADAPTER = Path(__file__).parents[2] / "clients" / "react-flow" / "src"
+DRIVERS = Path(__file__).with_name("react_flow")
+
+WITHOUT_REACT = ("graph", "places", "program-of", "flow-of", "edits-between", "link")
+
+ROUNDS = int(os.environ.get("TUBELOOM_TEST_ROUNDS", "25"))
+
+
+@pytest.fixture(scope="module")
+def adapted(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder where the adapter and our scripts lie compiled."""
+    folder = tmp_path_factory.mktemp("drivers")
+    sources = [ADAPTER / f"{name}.ts" for name in WITHOUT_REACT]
+    installed(folder, {path.name: path.read_text() for path in (*sources, *DRIVERS.glob("*.ts"))})
+    return folder
+
+
+@pytest.fixture(scope="module")
+def remembering(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service that keeps the revisions of a whole drag."""
+    with running_service(tmp_path_factory.mktemp("service")) as running:
+        yield running
+
+
+@pytest.mark.parametrize("script", ["adapter", "linking"])
+def test_by_the_test_runner_of_node(script: str, adapted: Path, remembering: Service) -> None:
+    done = subprocess.run(
+        ["node", "--test", "--test-reporter=spec", f"{script}.js"],
+        cwd=adapted,
+        env={**os.environ, "TUBELOOM_URL": remembering.url, "ROUNDS": str(ROUNDS)},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_what_is_drawn_while_the_service_is_away_is_sent_when_it_is_back(
+    adapted: Path, tmp_path: Path
+) -> None:
+    port = free_port()
+    with running_service(tmp_path, port=port) as service:
+        command = ["node", "offline.js", service.url]
+        editor = subprocess.Popen(command, cwd=adapted, stdout=subprocess.PIPE, text=True)
+        assert editor.stdout is not None
+        told = [editor.stdout.readline().strip() for _ in range(2)]
+        assert told[-1] == "saved"
+        service.process.kill()
+        service.process.wait()
+    assert [editor.stdout.readline().strip() for _ in range(2)] == ["sending", "offline"]
+    with running_service(tmp_path, port=port) as service:
+        rest, _ = editor.communicate(timeout=PATIENCE_SECONDS)
+        assert rest.split() == ["sending", "saved"]
+        with service.client() as client:
+            document = client.get("/v1/programs/away").json()
+    assert document["items"][0]["position"] == [3.0, 0.0, 0.25]
+    assert editor.returncode == 0
