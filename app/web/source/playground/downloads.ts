@@ -55,7 +55,8 @@ export class Downloads {
     const note = make("span", { className: "note", text: `.${format.ending}` });
     const button = make("button", {}, make("span", { text: format.title }), note);
     button.type = "button";
-    button.setAttribute("aria-label", format.title);
+    // The button is called as the format is; how large a file was is said when it is there.
+    note.setAttribute("aria-hidden", "true");
     button.addEventListener("click", () => void this.#save(format, button, note));
     return button;
   }

@@ -22,8 +22,8 @@ const look = EditorView.theme({
   ".cm-cursor, .cm-dropCursor": { borderLeftColor: "var(--accent)", borderLeftWidth: "2px" },
   ".cm-gutters": { backgroundColor: "var(--paper)", color: "var(--quiet)", border: "none" },
   ".cm-lineNumbers .cm-gutterElement": { padding: "0 6px 0 14px", minWidth: "34px" },
-  ".cm-activeLine": { backgroundColor: "var(--tint)" },
-  ".cm-activeLineGutter": { backgroundColor: "var(--tint)", color: "var(--ink)" },
+  ".cm-activeLine": { backgroundColor: "var(--line)" },
+  ".cm-activeLineGutter": { backgroundColor: "var(--line)", color: "var(--ink)" },
   "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground": {
     background: "var(--chosen)",
   },
@@ -37,6 +37,8 @@ const look = EditorView.theme({
   ".cm-textfield": { backgroundColor: "var(--paper)", border: "1px solid var(--edge)", borderRadius: "6px", color: "var(--ink)" },
   ".cm-button": { backgroundImage: "none", backgroundColor: "var(--tint)", border: "1px solid var(--edge)", borderRadius: "6px", color: "var(--ink)" },
   ".cm-panel.cm-search": { padding: "8px 28px 8px 8px" },
+  ".cm-panel.cm-search input, .cm-panel.cm-search button, .cm-panel.cm-search label": { fontSize: "12px", fontFamily: "system-ui, sans-serif" },
+  ".cm-panel.cm-search .cm-textfield, .cm-panel.cm-search .cm-button": { padding: "3px 8px" },
   ".cm-panel.cm-search [name=close]": { color: "var(--ink)", top: "6px", right: "8px", fontSize: "18px" },
   ".cm-searchMatch": { backgroundColor: "var(--match)" },
   ".cm-searchMatch-selected": { backgroundColor: "var(--chosen)" },
@@ -66,9 +68,9 @@ const look = EditorView.theme({
   ".cm-lint-marker-warning": { backgroundColor: "var(--doubt)", content: "none" },
   ".cm-lint-marker-info": { backgroundColor: "var(--accent)", content: "none" },
   ".cm-lintRange": { backgroundImage: "none", paddingBottom: "0" },
-  ".cm-lintRange-error": { textDecoration: "underline wavy var(--bad)", textUnderlineOffset: "3px" },
-  ".cm-lintRange-warning": { textDecoration: "underline wavy var(--doubt)", textUnderlineOffset: "3px" },
-  ".cm-lintRange-info": { textDecoration: "underline dotted var(--quiet)", textUnderlineOffset: "3px" },
+  ".cm-lintRange-error": { textDecoration: "underline wavy", textDecorationColor: "var(--bad)", textUnderlineOffset: "3px" },
+  ".cm-lintRange-warning": { textDecoration: "underline wavy", textDecorationColor: "var(--doubt)", textUnderlineOffset: "3px" },
+  ".cm-lintRange-info": { textDecoration: "underline dotted", textDecorationColor: "var(--quiet)", textUnderlineOffset: "3px" },
 });
 
 /** How the editor looks: in the page's colours, which are heeded as they change. */

@@ -1,6 +1,6 @@
 import { make } from "./page.ts";
 import { valueAt, type Parsed } from "./places.ts";
-import { palettes } from "./service.ts";
+import { keepKey, palettes, service } from "./service.ts";
 
 type Path = readonly ["layout" | "style" | "view", string];
 
@@ -72,6 +72,7 @@ export class Options {
       host.append(make("fieldset", {}, make("legend", { text: name }), ...fields));
     }
     host.append(
+      make("fieldset", {}, make("legend", { text: "Service" }), keyField()),
       make("p", { className: "hint", text: "Each choice is written into the program. Style and view are those of draft and final pictures and of downloads." }),
     );
   }
@@ -117,6 +118,16 @@ export class Options {
     });
     return make("label", {}, make("span", { text: "Clearance" }), input);
   }
+}
+
+/** Some services want a key. It stays in this tab. */
+function keyField(): HTMLElement {
+  const input = make("input");
+  Object.assign(input, { type: "password", autocomplete: "off", placeholder: "where one is wanted", value: service.key ?? "" });
+  input.addEventListener("change", () => keepKey(input.value));
+  const form = make("form", {}, make("label", {}, make("span", { text: "API key" }), input));
+  form.addEventListener("submit", (event) => event.preventDefault());
+  return form;
 }
 
 function isSame(one: unknown, other: unknown): boolean {

@@ -1,5 +1,6 @@
 import "../tube-viewer.ts";
 import { TubeViewer, type TubeEvents } from "../viewer/element.ts";
+import { keyOf, type ThingName } from "../viewer/things.ts";
 import { complete } from "./completion.ts";
 import { copy, curlOf, fileOf } from "./curl.ts";
 import { open, type Opened } from "./documents.ts";
@@ -14,7 +15,7 @@ import { parse, rangeOfThing, thingAt, valueAt, type Parsed, type Range } from "
 import { place } from "./popovers.ts";
 import { Problems } from "./problems.ts";
 import { rewrite } from "./rewriting.ts";
-import { troubleOf } from "./service.ts";
+import { heedKey, troubleOf } from "./service.ts";
 import { share } from "./split.ts";
 import { Stills, type Quality } from "./stills.ts";
 import { switchTheme } from "./theme.ts";
@@ -150,8 +151,10 @@ async function begin(): Promise<void> {
 }
 
 function selectInPicture(): void {
+  const drawn = new Set(viewer.things.map(keyOf));
   const things = editor.cursors.map((offset) => thingAt(parsed, offset));
-  viewer.selection = things.filter((thing) => thing !== undefined);
+  // While the text is broken, it may speak of what the picture does not have yet.
+  viewer.selection = things.filter((thing): thing is ThingName => thing !== undefined && drawn.has(keyOf(thing)));
 }
 
 function on<Name extends keyof TubeEvents>(name: Name, act: (detail: TubeEvents[Name]) => void): void {
@@ -166,6 +169,8 @@ on("tube-load", (detail) => {
   if (valueAt(parsed, ["layout", "clearance"]) === null) tell("none", "Distances are not looked at.");
   else if (verdict.textContent === "") tell("none", "Looking at distances …");
   else verdict.classList.add("old");
+  const name = valueAt(parsed, ["name"]);
+  document.title = typeof name === "string" && name ? `${name} · Tubeloom` : "Tubeloom";
   if (view) viewer.look(view);
   view = undefined;
   selectInPicture();
@@ -174,6 +179,8 @@ on("tube-problem", ({ problem }) => {
   problems.problem = problem;
   problems.show(parsed);
   viewer.classList.add("refused");
+  verdict.classList.add("old");
+  if (problem.status === 401) warn("This service wants an API key: write it under Options.");
 });
 on("tube-clearance", ({ clearance }) => {
   problems.clearance = clearance;
@@ -242,6 +249,9 @@ share(part("main", HTMLElement), part("#split", HTMLElement));
 switchTheme(part("#theme", HTMLButtonElement), (isDark) => {
   viewer.setAttribute("theme", isDark ? "dark" : "light");
   editor.isDark = isDark;
+});
+heedKey((key) => {
+  if (key !== viewer.key) viewer.key = key;
 });
 window.addEventListener("hashchange", () => void begin());
 void begin();

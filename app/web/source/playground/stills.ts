@@ -78,7 +78,9 @@ export class Stills {
     } catch (error) {
       if (signal.aborted) return;
       this.#rest("Not drawn");
-      this.#told(troubleOf(error));
+      // What is wrong with the text is told beside the text.
+      const isOfText = error instanceof Refusal && error.problem.errors !== undefined && error.problem.status < 500;
+      this.#told(isOfText ? undefined : troubleOf(error));
     }
   }
 

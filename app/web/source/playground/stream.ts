@@ -8,18 +8,17 @@ export interface ServerEvent {
 export async function* eventsOf(response: Response): AsyncGenerator<ServerEvent> {
   if (response.body === null) return;
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
-  let [waiting, whole] = [[] as string[], ""];
+  let [chunks, isEnded] = [[] as string[], false];
   try {
-    for (;;) {
-      const { done, value } = await reader.read();
-      if (done) return;
-      waiting.push(value);
-      // A picture comes in many chunks; joining them once is enough.
-      if (!/\r?\n\r?\n$/.test(value) && !value.includes("\n\n")) continue;
-      const blocks = (whole + waiting.join("")).replaceAll("\r\n", "\n").split("\n\n");
-      waiting = [];
-      whole = blocks.pop() ?? "";
-      for (const block of blocks) yield eventOf(block);
+    while (!isEnded) {
+      const { done, value = "" } = await reader.read();
+      isEnded = done;
+      chunks.push(value);
+      // A picture comes in many chunks; looking for its end once is enough.
+      if (!isEnded && !value.includes("\n")) continue;
+      const blocks = chunks.join("").replaceAll("\r\n", "\n").split("\n\n");
+      chunks = isEnded ? [] : [blocks.pop() ?? ""];
+      for (const block of blocks) if (block.trim() !== "") yield eventOf(block);
     }
   } finally {
     await reader.cancel().catch(() => undefined);
