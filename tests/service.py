@@ -87,12 +87,14 @@ def gone(process: psutil.Process) -> bool:
         return True
 
 
-def until(find: Callable[[], Found | None], seconds: float = PATIENCE_SECONDS) -> Found:
-    """What ``find`` finds, as soon as it is true."""
+def until(
+    find: Callable[[], Found | None], seconds: float = PATIENCE_SECONDS, pause: float = 0.01
+) -> Found:
+    """What ``find`` finds, as soon as it is true; it is asked again after each ``pause``."""
     end = time.monotonic() + seconds
     while not (found := find()):
         assert time.monotonic() < end, f"not within {seconds} s"
-        time.sleep(0.01)
+        time.sleep(pause)
     return found
 
 
@@ -124,7 +126,7 @@ def running_service(folder: Path, **settings: object) -> Iterator[Service]:
         assert isinstance(found, re.Match), log.read_text()
         service = Service(found[1], process, log)
         with service.client() as client:
-            until(lambda: not warm or _all_warm(client))
+            until(lambda: not warm or _all_warm(client), pause=0.05)
         yield service
     finally:
         process.terminate()

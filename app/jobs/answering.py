@@ -188,8 +188,7 @@ class Answering:
 
 
 def code_digest() -> str:
-    """Of this package's files but for its pages: answers of other code may differ, though not its
-    version."""
+    """Of all files but the pages: answers of other code may differ, though not its version."""
     package = Path(__file__).parents[1]
     rooms = (room for room in package.iterdir() if room.name != "web")
     digest = hashlib.sha256()
