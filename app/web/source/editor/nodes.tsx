@@ -28,7 +28,7 @@ function ItemNode({ id, data, selected }: NodeProps<AppNode>): ReactElement {
   const handles = (data["handles"] ?? []) as readonly FlowHandle[];
   return (
     <div className="item" onDoubleClick={() => acts?.startRename(id)}>
-      <span className="swatch" style={{ background: (data["color"] as string | undefined) ?? "var(--muted)" }} />
+      {data["color"] ? <span className="swatch" style={{ background: String(data["color"]) }} /> : null}
       <span className="words">
         {data["kind"] ? <small>{String(data["kind"]).replaceAll("_", " ")}</small> : null}
         {acts?.renamed === id ? <Rename id={id} label={label} /> : <b>{label}</b>}

@@ -3,6 +3,9 @@ import type { Client, ProgramDocument } from "tubeloom-client";
 import type { Edge } from "@xyflow/react";
 import { DOT_SIZE, ORIGIN, settled, titleOf, type AppNode, type Graph } from "./graph.ts";
 
+/** Lower nodes have room for a label only. */
+const SMALL = 48;
+
 /** The graph of a program; where items stand is asked of the service if the program does not say. */
 export async function graphOf(program: ProgramDocument, client: Client): Promise<Graph> {
   const isPlaced = program.items.every((item) => item.position != null);
@@ -17,8 +20,9 @@ function graphAtOnce(program: ProgramDocument, layout?: Awaited<ReturnType<Clien
 
 function typed(node: FlowNode, isContainer: boolean): AppNode {
   const dot = node.type === JUNCTION ? { width: DOT_SIZE, height: DOT_SIZE } : {};
-  const tray = isContainer ? { className: "container" } : {};
-  return { ...node, ...dot, ...tray } as AppNode;
+  const isSmall = (node.height ?? 0) < SMALL && node.type !== JUNCTION;
+  const look = isContainer ? { className: "container" } : isSmall ? { className: "small" } : {};
+  return { ...node, ...dot, ...look } as AppNode;
 }
 
 /** The graph `after`, where what was selected in `before` is so still, and what was measured. */
