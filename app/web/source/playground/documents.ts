@@ -1,22 +1,15 @@
 import { AS_JSON, service } from "./service.ts";
 
-/** A document of whatever format, to be shown as a program. */
-export interface Opened {
-  text: string;
-  /** Whether it had to be converted, or is there as it was. */
-  isConverted: boolean;
-}
-
 /** Makes a program of what was opened, recognised by its contents. Throws what the service says. */
-export async function open(contents: string): Promise<Opened> {
+export async function open(contents: string): Promise<string> {
   const format = formatOf(contents);
-  if (format === undefined && contents.trimStart().startsWith("{")) return { text: contents, isConverted: false };
+  if (format === undefined && contents.trimStart().startsWith("{")) return contents;
   const response = await service.ask(`/v1/convert?from=${format ?? "tubeloom"}&to=tubeloom`, {
     method: "POST",
     body: contents,
     headers: AS_JSON,
   });
-  return { text: tidy((await response.json()) as Record<string, unknown>), isConverted: true };
+  return tidy((await response.json()) as Record<string, unknown>);
 }
 
 function formatOf(contents: string): "yosys" | "hif" | undefined {

@@ -79,6 +79,7 @@ export class Options {
 
   /** Ask the service for what it alone knows. */
   async learn(parsed: Parsed): Promise<void> {
+    if (PALETTE.values.length > 1) return;
     const known = await palettes().catch(() => []);
     if (known.length > 0) PALETTE.values = known.map(({ name, title }) => [name, title]);
     this.show(parsed);

@@ -3,7 +3,7 @@ import { TubeViewer, type TubeEvents } from "../viewer/element.ts";
 import { keyOf, type ThingName } from "../viewer/things.ts";
 import { complete } from "./completion.ts";
 import { copy, curlOf, fileOf } from "./curl.ts";
-import { open, type Opened } from "./documents.ts";
+import { open } from "./documents.ts";
 import { Downloads } from "./downloads.ts";
 import { takeFiles } from "./dropping.ts";
 import { ProgramEditor } from "./editor.ts";
@@ -11,7 +11,7 @@ import { contentsOf, DEFAULT_EXAMPLE, EXAMPLES } from "./examples.ts";
 import { fragmentOf, read } from "./link.ts";
 import { Options } from "./options.ts";
 import { calm, part, say, warn } from "./page.ts";
-import { parse, rangeOfThing, thingAt, valueAt, type Parsed, type Range } from "./places.ts";
+import { idsOf, parse, rangeOfThing, thingAt, valueAt, type Parsed, type Range } from "./places.ts";
 import { place } from "./popovers.ts";
 import { Problems } from "./problems.ts";
 import { rewrite } from "./rewriting.ts";
@@ -29,6 +29,7 @@ const viewer = part("tube-viewer", TubeViewer);
 const verdict = part("#verdict", HTMLElement);
 const counts = part("#counts", HTMLElement);
 const examples = part("#example", HTMLSelectElement);
+const optionsBox = part("#options", HTMLElement);
 
 /** The text as it is now, what is right in it or not. */
 let parsed: Parsed = parse("");
@@ -41,7 +42,7 @@ const editor = new ProgramEditor(part("#editor", HTMLElement), complete, {
   change(text, isTyped) {
     parsed = parse(text);
     problems.show(parsed);
-    options.show(parsed);
+    if (optionsBox.matches(":popover-open")) options.show(parsed);
     if (!isTyped) return;
     examples.value = "";
     if (isKept) localStorage.setItem(KEPT, text);
@@ -50,7 +51,7 @@ const editor = new ProgramEditor(part("#editor", HTMLElement), complete, {
   cursor: () => selectInPicture(),
 });
 const problems = new Problems(editor, part("#summary", HTMLElement), part("#list", HTMLElement));
-const options = new Options(part("#options", HTMLElement), (path, value) => {
+const options = new Options(optionsBox, (path, value) => {
   if (parsed.errors.length > 0) {
     warn("The text must be right before options can be written into it.");
     return;
@@ -104,7 +105,7 @@ function viewOf(of: Parsed): readonly [number, number, number] {
 }
 
 /** Put a document in place of the text, and show it from where it says. */
-function put({ text }: Opened, example = ""): void {
+function put(text: string, example = ""): void {
   warn(undefined);
   editor.text = text;
   examples.value = example;
@@ -113,22 +114,20 @@ function put({ text }: Opened, example = ""): void {
   problems.show(parsed);
   // The viewer itself takes its first view from the document.
   view = shown === "" ? undefined : viewOf(parsed);
+  if (view && text === shown) viewer.look(view);
   show();
-}
-
-async function openText(contents: string, example?: string): Promise<void> {
-  try {
-    put(await open(contents), example);
-  } catch (error) {
-    warn(troubleOf(error));
-  }
 }
 
 async function openExample(name: string): Promise<void> {
   const example = EXAMPLES.find((each) => each.name === name);
+  if (example === undefined) throw new Error(`There is no example ${name}.`);
+  put(await open(await contentsOf(example)), name);
+}
+
+/** Do it, and tell if it goes wrong. */
+async function attempt(act: () => Promise<void>): Promise<void> {
   try {
-    if (example === undefined) throw new Error(`There is no example ${name}.`);
-    await openText(await contentsOf(example), name);
+    await act();
   } catch (error) {
     warn(troubleOf(error));
   }
@@ -140,12 +139,12 @@ async function begin(): Promise<void> {
   try {
     const asked = await read(location.hash);
     isKept = asked === undefined;
-    if (asked && "program" in asked) await openText(asked.program);
+    if (asked && "program" in asked) put(asked.program);
     else if (asked) await openExample(asked.example);
-    else if (kept) put({ text: kept, isConverted: false });
+    else if (kept) put(kept);
     else await openExample(DEFAULT_EXAMPLE);
   } catch (error) {
-    await openExample(DEFAULT_EXAMPLE);
+    await attempt(() => openExample(DEFAULT_EXAMPLE));
     warn(troubleOf(error));
   }
 }
@@ -185,7 +184,7 @@ on("tube-problem", ({ problem }) => {
 on("tube-clearance", ({ clearance }) => {
   problems.clearance = clearance;
   problems.show(parsed);
-  const { verdict: kind, text } = verdictOf(clearance);
+  const { verdict: kind, text } = verdictOf(clearance, idsOf(parse(shown), "hyperedge").length);
   tell(kind, text);
 });
 on("tube-select", ({ things }) => {
@@ -227,7 +226,7 @@ copyLink.addEventListener("click", () => {
 
 examples.append(new Option("Example …", ""), ...EXAMPLES.map(({ name, title }) => new Option(title, name)));
 examples.addEventListener("change", () => {
-  if (examples.value) void openExample(examples.value);
+  if (examples.value) void attempt(() => openExample(examples.value));
 });
 part("#quality", HTMLFieldSetElement).addEventListener("change", (event) => {
   warn(undefined);
@@ -236,14 +235,17 @@ part("#quality", HTMLFieldSetElement).addEventListener("change", (event) => {
   draw();
 });
 part("#notice button", HTMLButtonElement).addEventListener("click", () => warn(undefined));
-place(part("#options", HTMLElement), part("#show-options", HTMLButtonElement));
+place(optionsBox, part("#show-options", HTMLButtonElement));
 place(part("#downloads", HTMLElement), part("#show-downloads", HTMLButtonElement));
-part("#options", HTMLElement).addEventListener("beforetoggle", () => void options.learn(parsed), { once: true });
+optionsBox.addEventListener("beforetoggle", () => {
+  options.show(parsed);
+  void options.learn(parsed);
+});
 takeFiles(
   part("#drop", HTMLElement),
   part("#open", HTMLButtonElement),
   part("#file", HTMLInputElement),
-  (contents) => void openText(contents),
+  (contents) => void attempt(async () => put(await open(contents))),
 );
 share(part("main", HTMLElement), part("#split", HTMLElement));
 switchTheme(part("#theme", HTMLButtonElement), (isDark) => {

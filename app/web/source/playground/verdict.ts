@@ -29,13 +29,15 @@ export function pinchesOf({ pinches }: Clearance): Remark[] {
   }));
 }
 
-/** The verdict in one line, and whether it is good. */
-export function verdictOf(clearance: Clearance): { verdict: "good" | "bad"; text: string } {
+/** The verdict on so many hyperedges in one line, and whether it is good. */
+export function verdictOf(clearance: Clearance, hyperedges: number): { verdict: "none" | "good" | "bad"; text: string } {
   const { conflicts, minimum, required, certified } = clearance;
+  if (hyperedges === 0) return { verdict: "none", text: "There are no hyperedges yet." };
   const tight = pinchesOf(clearance).length;
   const pinches = tight === 0 ? "" : ` ${tight === 1 ? "One bends" : `${tight} bend`} tightly.`;
   if (certified) {
-    const text = `No two hyperedges touch: at least ${short(minimum)} apart (${short(required)} wanted).`;
+    const what = hyperedges === 1 ? "The hyperedge touches nothing else" : "No two hyperedges touch";
+    const text = `${what}: at least ${short(minimum)} apart (${short(required)} wanted).`;
     return { verdict: "good", text: text + pinches };
   }
   const [first] = conflictsOf(clearance);
