@@ -24,12 +24,10 @@ export default defineConfig({
     chunkSizeWarningLimit: 900,
     rolldownOptions: {
       input: {
-
         index: here("source/index.html"),
         viewer: here("source/viewer.html"),
         editor: here("source/editor.html"),
-
-
+        litegraph: here("source/litegraph.html"),
         "tube-viewer": here("source/tube-viewer.ts"),
       },
       output: {

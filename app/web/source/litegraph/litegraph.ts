@@ -123,6 +123,7 @@ Object.assign(LiteGraph, {
 const canvas = new LGraphCanvas(element, graph);
 Object.assign(canvas, { allow_searchbox: false, render_info: false, show_info: false, background_image: null });
 Object.assign(canvas, { clear_background_color: isDark ? "#0d1117" : "#f5f7fa", render_canvas_border: false });
+element.tabIndex = 0; // litegraph.js puts it before all else.
 const resize = () => canvas.resize(element.clientWidth, element.clientHeight);
 new ResizeObserver(resize).observe(element);
 canvas.ds.scale = Math.min(1, element.clientWidth / 470);

@@ -59,6 +59,7 @@ export class TubeViewer extends HTMLElement {
   #status: Status = "empty";
   #isPlanned = false;
   #isNew = true;
+  #isFitted = true;
   #left = new AbortController();
 
   /** An API key, where the service wants one. It is sent in a header, to the service alone. */
@@ -81,14 +82,18 @@ export class TubeViewer extends HTMLElement {
     else this.setAttribute("program", typeof document === "string" ? document : JSON.stringify(document));
   }
 
-  /** What is selected. Setting it tells nobody: whoever sets it knows. */
+  /**
+   * What is selected. Setting it tells nobody, for whoever sets it knows; what is not shown is left
+   * out.
+   */
   get selection(): Thing[] {
     const found = [...this.#emphasis.selected].map((key) => this.#scene.things.get(key));
     return found.filter((thing) => thing !== undefined);
   }
 
   set selection(names: readonly ThingName[]) {
-    this.#select(new Set(names.map(keyOf)), false);
+    const keys = names.map(keyOf).filter((key) => this.#scene.things.has(key));
+    this.#select(new Set(keys), false);
   }
 
   /** All that is shown: items and hyperedges. */
@@ -147,10 +152,7 @@ export class TubeViewer extends HTMLElement {
 
   /** Step back or nearer, until all is just seen. */
   fit(): void {
-    const stage = this.#stage;
-    if (stage === undefined) return;
-    const { position, target } = stage.pose;
-    stage.look(stage.around(this.#shownCorners(), position.sub(target)));
+    if (this.#stage) this.#fit(this.#stage, "gently");
   }
 
   /**
@@ -161,6 +163,7 @@ export class TubeViewer extends HTMLElement {
     const named = typeof view === "string" ? VIEWS[view] : view;
     const direction = named ? directionFrom(named) : this.#given;
     this.#stage?.look(this.#stage.around(this.#shownCorners(), direction));
+    this.#isFitted = true;
   }
 
   /** Once a frame shows all that was changed until now. */
@@ -194,7 +197,13 @@ export class TubeViewer extends HTMLElement {
       choose: (x, y, isMore) => this.#choose(this.#at(x, y), isMore),
       fit: () => this.fit(),
     });
-    const sizes = new ResizeObserver(() => stage.resize());
+    // As long as nobody has chosen where to look from, all is seen, however the size changes.
+    stage.controls.addEventListener("start", () => (this.#isFitted = false));
+    focused.addEventListener("keydown", () => (this.#isFitted = false), { signal });
+    const sizes = new ResizeObserver(() => {
+      stage.resize();
+      if (this.#isFitted) this.#fit(stage, "at once");
+    });
     sizes.observe(this);
     signal.addEventListener("abort", () => sizes.disconnect());
     for (const preference of [STILL, DARK]) {
@@ -269,6 +278,7 @@ export class TubeViewer extends HTMLElement {
     this.#taken(loaded, false);
     if (!this.#isNew) return;
     stage.look(stage.around(this.#scene.cornersOf(), this.#given), "at once");
+    this.#isFitted = true;
     this.#isNew = false;
   }
 
@@ -346,6 +356,12 @@ export class TubeViewer extends HTMLElement {
     this.#say("tube-frame", { milliseconds });
   }
 
+  #fit(stage: Stage, when: "gently" | "at once"): void {
+    const { position, target } = stage.pose;
+    stage.look(stage.around(this.#shownCorners(), position.sub(target)), when);
+    this.#isFitted = true;
+  }
+
   /** Of what is not hidden. */
   #shownCorners(): Vector3[] {
     const { selected, others } = this.#emphasis;
@@ -355,7 +371,7 @@ export class TubeViewer extends HTMLElement {
 
   #detail(): Detail {
     const { clientWidth, clientHeight } = this.#parts.canvas;
-    const ratio = this.#stage?.isSoftware ? 1 : Math.min(devicePixelRatio, 2);
+    const ratio = this.#stage?.isSoftware ? 0.5 : Math.min(devicePixelRatio, 2);
     const clamp = (size: number) => Math.min(Math.max(Math.round((size * ratio) / 256) * 256, 256), 4096);
     return { width: clamp(clientWidth), height: clamp(clientHeight) };
   }
