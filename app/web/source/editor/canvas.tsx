@@ -13,7 +13,7 @@ import {
   type FinalConnectionState,
   type NodeChange,
 } from "@xyflow/react";
-import { useCallback, useMemo, type Dispatch, type DragEvent, type ReactElement, type SetStateAction } from "react";
+import { useCallback, useMemo, type Dispatch, type DragEvent, type KeyboardEvent, type ReactElement, type SetStateAction } from "react";
 import { JUNCTION } from "tubeloom-react-flow";
 import { added, endOf, joined, ORIGIN, settled, type AppNode, type End, type Graph } from "./graph.ts";
 import { KINDS } from "./kinds.ts";
@@ -82,6 +82,19 @@ export function Canvas({ graph, setGraph, colorMode, onGesture }: CanvasProps): 
     setGraph((now) => added(now, kind, place).graph);
   };
 
+  /** React Flow forgets that Ctrl is held once another key is let go; so choosing more is done here. */
+  const onKeyDownCapture = (event: KeyboardEvent<HTMLElement>) => {
+    const isMore = event.ctrlKey || event.metaKey || event.shiftKey;
+    const id = event.target instanceof HTMLElement ? event.target.dataset["id"] : undefined;
+    if (!isMore || !["Enter", " "].includes(event.key) || !graph.nodes.some((node) => node.id === id)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    setGraph((now) => ({
+      ...now,
+      nodes: now.nodes.map((node) => (node.id === id ? { ...node, selected: !node.selected } : node)),
+    }));
+  };
+
   return (
     <ReactFlow
       nodes={nodes}
@@ -109,6 +122,7 @@ export function Canvas({ graph, setGraph, colorMode, onGesture }: CanvasProps): 
       onSelectionDragStop={() => onGesture(false)}
       onDragOver={(event) => event.preventDefault()}
       onDrop={onDrop}
+      onKeyDownCapture={onKeyDownCapture}
       aria-label="Graph"
     >
       <Background variant={BackgroundVariant.Dots} gap={16} size={1} />
