@@ -1,8 +1,9 @@
-import { PerspectiveCamera, Vector3 } from "three";
-import { directionFrom, directionOf } from "./camera.ts";
+import { Vector3 } from "three";
+import { Attention } from "./attention.ts";
 import { ConflictMarks } from "./clearance.ts";
 import { Emphasis } from "./emphasis.ts";
 import type { Status, TubeEvents } from "./events.ts";
+import { Framing } from "./framing.ts";
 import { listenToKeys } from "./keyboard.ts";
 import { Overlay } from "./labels.ts";
 import type { Detail, Loaded } from "./loading.ts";
@@ -20,15 +21,6 @@ import { Toolbar, type ToolbarCommands } from "./toolbar.ts";
 
 export type { Status, TubeEvents } from "./events.ts";
 
-const VIEWS: Record<string, readonly [number, number, number]> = {
-  top: [0, 0, 1],
-  front: [0, -1, 0.12],
-  side: [1, 0, 0.12],
-  back: [0, 1, 0.12],
-  isometric: [1, -1, 0.82],
-};
-
-const USUAL_DIRECTION = directionFrom([0.2, -1, 1]);
 const NO_WEBGL = "This browser does not show 3D pictures: WebGL 2 is missing or switched off.";
 
 /**
@@ -49,17 +41,20 @@ export class TubeViewer extends HTMLElement {
   readonly #overlay = new Overlay(this.#scene, this.#parts.labels);
   readonly #toolbar = new Toolbar(this.#parts.toolbar, this.#commands());
   readonly #narration = new Narration(this.#scene, this.#parts.list, this.#parts.live, {
-    highlight: (key) => this.#hover(key),
-    choose: (key, isMore) => this.#choose(key, isMore),
+    highlight: (key) => this.#attention.hover(key),
+    choose: (key, isMore) => this.#attention.choose(key, isMore),
+  });
+  readonly #attention = new Attention(this.#scene, this.#emphasis, this.#narration, {
+    changed: () => this.#emphasize(),
+    hovered: (detail) => this.#say("tube-hover", detail),
+    selected: (detail) => this.#say("tube-select", detail),
   });
   #stage: Stage | undefined;
   #mobile: Mobile | undefined;
-  /** The direction in which the document has its camera. */
-  #given = USUAL_DIRECTION;
+  #framing: Framing | undefined;
   #status: Status = "empty";
   #isPlanned = false;
   #isNew = true;
-  #isFitted = true;
   #left = new AbortController();
 
   /** An API key, where the service wants one. It is sent in a header, to the service alone. */
@@ -87,13 +82,11 @@ export class TubeViewer extends HTMLElement {
    * out.
    */
   get selection(): Thing[] {
-    const found = [...this.#emphasis.selected].map((key) => this.#scene.things.get(key));
-    return found.filter((thing) => thing !== undefined);
+    return this.#attention.selection;
   }
 
   set selection(names: readonly ThingName[]) {
-    const keys = names.map(keyOf).filter((key) => this.#scene.things.has(key));
-    this.#select(new Set(keys), false);
+    this.#attention.select(names.map(keyOf), false);
   }
 
   /** All that is shown: items and hyperedges. */
@@ -152,7 +145,7 @@ export class TubeViewer extends HTMLElement {
 
   /** Step back or nearer, until all is just seen. */
   fit(): void {
-    if (this.#stage) this.#fit(this.#stage, "gently");
+    this.#framing?.fit();
   }
 
   /**
@@ -160,10 +153,7 @@ export class TubeViewer extends HTMLElement {
    * direction (z up).
    */
   look(view: string | readonly [number, number, number]): void {
-    const named = typeof view === "string" ? VIEWS[view] : view;
-    const direction = named ? directionFrom(named) : this.#given;
-    this.#stage?.look(this.#stage.around(this.#shownCorners(), direction));
-    this.#isFitted = true;
+    this.#framing?.look(view);
   }
 
   /** Once a frame shows all that was changed until now. */
@@ -191,19 +181,15 @@ export class TubeViewer extends HTMLElement {
     stage.world.add(this.#scene.root, this.#marks.group);
     stage.onframe = (milliseconds) => this.#afterFrame(stage, milliseconds);
     this.#mobile = new Mobile(stage);
+    const framing = (this.#framing = new Framing(stage, this.#scene, this.#emphasis));
+    focused.addEventListener("keydown", () => framing.leave(), { signal });
     listenToKeys(focused, stage, this.#commands(), signal);
     watchPointer(canvas, signal, {
-      hover: (place) => this.#hover(place && this.#at(...place)),
-      choose: (x, y, isMore) => this.#choose(this.#at(x, y), isMore),
+      hover: (place) => this.#attention.hover(place && this.#at(...place)),
+      choose: (x, y, isMore) => this.#attention.choose(this.#at(x, y), isMore),
       fit: () => this.fit(),
     });
-    // As long as nobody has chosen where to look from, all is seen, however the size changes.
-    stage.controls.addEventListener("start", () => (this.#isFitted = false));
-    focused.addEventListener("keydown", () => (this.#isFitted = false), { signal });
-    const sizes = new ResizeObserver(() => {
-      stage.resize();
-      if (this.#isFitted) this.#fit(stage, "at once");
-    });
+    const sizes = new ResizeObserver(() => framing.resize());
     sizes.observe(this);
     signal.addEventListener("abort", () => sizes.disconnect());
     for (const preference of [STILL, DARK]) {
@@ -215,7 +201,7 @@ export class TubeViewer extends HTMLElement {
     return {
       fit: () => this.fit(),
       look: (view) => this.look(view),
-      clear: () => this.#choose(undefined, false),
+      clear: () => this.#attention.choose(undefined, false),
       toggleOthers: () => this.#toggle("others", "hide"),
       toggleMotion: () => this.#toggle("motion", "sway"),
       stereo: (kind) => this.setAttribute("stereo", kind),
@@ -269,16 +255,11 @@ export class TubeViewer extends HTMLElement {
   }
 
   #showWhole(loaded: Loaded): void {
-    const stage = this.#stage;
-    if (stage === undefined) return;
     this.#emphasis.clear();
     this.#scene.replace(loaded.gltf);
-    const [camera] = loaded.gltf.cameras;
-    this.#given = camera instanceof PerspectiveCamera ? directionOf(camera) : USUAL_DIRECTION;
+    this.#framing?.learn(loaded.gltf);
     this.#taken(loaded, false);
-    if (!this.#isNew) return;
-    stage.look(stage.around(this.#scene.cornersOf(), this.#given), "at once");
-    this.#isFitted = true;
+    if (this.#isNew) this.#framing?.begin();
     this.#isNew = false;
   }
 
@@ -287,9 +268,7 @@ export class TubeViewer extends HTMLElement {
     if (stage === undefined) return;
     const { things, box, size, name } = this.#scene;
     stage.box = box;
-    const kept = [...this.#emphasis.selected].filter((key) => things.has(key));
-    if (kept.length !== this.#emphasis.selected.size) this.#select(new Set(kept), true);
-    if (this.#emphasis.hovered && !things.has(this.#emphasis.hovered)) this.#hover(undefined);
+    this.#attention.revise();
     this.#light(stage);
     this.#emphasize();
     this.#narration.refresh();
@@ -316,33 +295,9 @@ export class TubeViewer extends HTMLElement {
     return this.#stage && this.#picker.at(x, y, clientWidth, clientHeight, this.#stage.camera);
   }
 
-  #hover(key: ThingKey | undefined): void {
-    if (key === this.#emphasis.hovered) return;
-    this.#emphasis.hovered = key;
-    this.#parts.canvas.classList.toggle("on-thing", key !== undefined);
-    this.#emphasize();
-    this.#say("tube-hover", { thing: key && this.#scene.things.get(key) });
-  }
-
-  #choose(key: ThingKey | undefined, isMore: boolean): void {
-    const chosen = new Set(isMore ? this.#emphasis.selected : []);
-    if (key !== undefined && !(isMore && chosen.delete(key))) chosen.add(key);
-    this.#select(chosen, true);
-    const sentence = key === undefined ? "Nothing is selected." : `Selected: ${this.#narration.sentenceOf(key)}`;
-    this.#narration.say(sentence);
-  }
-
-  #select(keys: ReadonlySet<ThingKey>, isTold: boolean): void {
-    const before = this.#emphasis.selected;
-    if (keys.size === before.size && [...keys].every((key) => before.has(key))) return;
-    this.#emphasis.selected = keys;
-    this.#narration.selected = keys;
-    this.#emphasize();
-    if (isTold) this.#say("tube-select", { things: this.selection });
-  }
-
   #emphasize(): void {
     this.#emphasis.apply();
+    this.#parts.canvas.classList.toggle("on-thing", this.#emphasis.hovered !== undefined);
     if (this.#emphasis.others === "hide") this.#stage?.lighting.refresh();
     this.#stage?.invalidate();
   }
@@ -354,19 +309,6 @@ export class TubeViewer extends HTMLElement {
     this.#overlay.update(stage.camera, clientWidth, clientHeight, wanted, isPlain);
     this.#marks.face(stage.camera);
     this.#say("tube-frame", { milliseconds });
-  }
-
-  #fit(stage: Stage, when: "gently" | "at once"): void {
-    const { position, target } = stage.pose;
-    stage.look(stage.around(this.#shownCorners(), position.sub(target)), when);
-    this.#isFitted = true;
-  }
-
-  /** Of what is not hidden. */
-  #shownCorners(): Vector3[] {
-    const { selected, others } = this.#emphasis;
-    const isPart = selected.size > 0 && others === "hide";
-    return isPart ? this.#scene.cornersOf(selected) : this.#scene.cornersOf();
   }
 
   #detail(): Detail {

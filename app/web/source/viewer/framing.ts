@@ -1,0 +1,72 @@
+import { PerspectiveCamera, type Vector3 } from "three";
+import type { GLTF } from "three/addons/loaders/GLTFLoader.js";
+import { directionFrom, directionOf } from "./camera.ts";
+import type { Emphasis } from "./emphasis.ts";
+import type { Scene } from "./scene.ts";
+import type { Stage } from "./stage.ts";
+
+const VIEWS: Record<string, readonly [number, number, number]> = {
+  top: [0, 0, 1],
+  front: [0, -1, 0.12],
+  side: [1, 0, 0.12],
+  back: [0, 1, 0.12],
+  isometric: [1, -1, 0.82],
+};
+
+const USUAL_DIRECTION = directionFrom([0.2, -1, 1]);
+
+/** Chooses where to look from, so that all is seen that is not hidden. */
+export class Framing {
+  readonly #stage: Stage;
+  readonly #scene: Scene;
+  readonly #emphasis: Emphasis;
+  /** The direction in which the document has its camera. */
+  #given = USUAL_DIRECTION;
+  #isFitted = true;
+
+  constructor(stage: Stage, scene: Scene, emphasis: Emphasis) {
+    [this.#stage, this.#scene, this.#emphasis] = [stage, scene, emphasis];
+    stage.controls.addEventListener("start", () => this.leave());
+  }
+
+  /** Step back or nearer, until all is just seen. */
+  fit(when: "gently" | "at once" = "gently"): void {
+    const { position, target } = this.#stage.pose;
+    this.#look(position.sub(target), when);
+  }
+
+  /** Look from a view by its name, or from a direction (z up). */
+  look(view: string | readonly [number, number, number]): void {
+    const named = typeof view === "string" ? VIEWS[view] : view;
+    this.#look(named ? directionFrom(named) : this.#given, "gently");
+  }
+
+  /** Look as a file says that is shown from now on. */
+  begin(): void {
+    this.#look(this.#given, "at once");
+  }
+
+  /** Learn how a file has its camera. */
+  learn({ cameras: [camera] }: GLTF): void {
+    this.#given = camera instanceof PerspectiveCamera ? directionOf(camera) : USUAL_DIRECTION;
+  }
+
+  /** Somebody has chosen where to look from. */
+  leave(): void {
+    this.#isFitted = false;
+  }
+
+  /** Take another size: all is seen as before, unless somebody has chosen where to look from. */
+  resize(): void {
+    this.#stage.resize();
+    if (this.#isFitted) this.fit("at once");
+  }
+
+  #look(direction: Vector3, when: "gently" | "at once"): void {
+    const { selected, others } = this.#emphasis;
+    const isPart = selected.size > 0 && others === "hide";
+    const corners = isPart ? this.#scene.cornersOf(selected) : this.#scene.cornersOf();
+    this.#stage.look(this.#stage.around(corners, direction), when);
+    this.#isFitted = true;
+  }
+}
