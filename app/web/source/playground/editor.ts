@@ -72,7 +72,7 @@ export class ProgramEditor {
         editorLook,
         this.#darkness.of([]),
         EditorView.lineWrapping,
-        EditorView.contentAttributes.of({ "aria-label": "Program", spellcheck: "false" }),
+        EditorView.contentAttributes.of({ "aria-label": "Program", spellcheck: "false", tabindex: "0" }),
         EditorView.domEventHandlers({ beforeinput: overLines }),
         EditorView.updateListener.of((update) => {
           const isOurs = update.transactions.some((each) => each.annotation(byPage));
