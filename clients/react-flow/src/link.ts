@@ -1,5 +1,6 @@
 import { Problem, type Client, type Program, type ProgramDocument, type Revision } from "tubeloom-client";
 import { editsBetween } from "./edits-between.js";
+import { Steps } from "./steps.js";
 
 /**
  * How things stand between an editor and the service. `refused`: the service does not take what was
@@ -46,13 +47,10 @@ export class Link {
   #steps: ("undo" | "redo")[] = [];
   #heard = 0;
   #isRunning = false;
-  /** How many revisions each change made that was one to whoever made it, and what undo took back. */
-  #done: number[] = [];
-  #undone: number[] = [];
+  readonly #taken = new Steps();
   #isGesture = false;
-  /** The change that is wanted, and the one that was counted last. */
-  #wantedChange = 0;
-  #countedChange = 0;
+  /** The number of the change that is wanted. */
+  #change = 0;
 
   /** A client without patience lets the link tell sooner that the service does not answer. */
   constructor(client: Client, id: string, listener: LinkListener) {
@@ -102,14 +100,14 @@ export class Link {
   /** Let the stored program become this one. */
   send(program: ProgramDocument): void {
     this.#wanted = program;
-    if (!this.#isGesture) this.#wantedChange += 1;
+    if (!this.#isGesture) this.#change += 1;
     void this.#run();
   }
 
   /** What is sent from now on, until `endGesture`, is one change to undo. */
   beginGesture(): void {
     this.#isGesture = true;
-    this.#wantedChange += 1;
+    this.#change += 1;
   }
 
   endGesture(): void {
@@ -163,16 +161,16 @@ export class Link {
 
   #next(): (() => Promise<void>) | undefined {
     const [sent, wanted] = [this.#sent, this.#wanted];
-    if (sent && wanted && wanted !== sent && wanted !== this.#refused) return () => this.#change(sent, wanted);
+    if (sent && wanted && wanted !== sent && wanted !== this.#refused) return () => this.#send(sent, wanted);
     const step = this.#steps[0];
     if (step !== undefined) return () => this.#step(step);
     if (this.#heard > this.#state.revision) return () => this.#fetch();
     return undefined;
   }
 
-  async #change(sent: ProgramDocument, wanted: ProgramDocument): Promise<void> {
+  async #send(sent: ProgramDocument, wanted: ProgramDocument): Promise<void> {
     const edits = editsBetween(sent, wanted);
-    const change = this.#wantedChange;
+    const change = this.#change;
     if (edits.length === 0) {
       this.#sent = wanted;
       return;
@@ -181,7 +179,8 @@ export class Link {
       const whole = edits.length > MOST_EDITS;
       const revision = await (whole ? this.#program.put(wanted) : this.#program.edit(...edits));
       this.#sent = wanted;
-      this.#count(revision, change);
+      if (revision.revision > this.#state.revision) this.#taken.made(change);
+      this.#take(revision);
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
       if (error.status === 404) await this.#putAnew(wanted);
@@ -199,7 +198,7 @@ export class Link {
       this.#sent = wanted;
       return;
     }
-    this.#done = this.#undone = [];
+    this.#taken.forget();
     try {
       this.#take(await this.#program.edit(...ours));
       const both = await this.#program.get();
@@ -214,14 +213,13 @@ export class Link {
 
   async #putAnew(wanted: ProgramDocument): Promise<void> {
     this.#program.etag = undefined;
-    this.#done = this.#undone = [];
+    this.#taken.forget();
     this.#take(await this.#program.put(wanted));
     this.#sent = wanted;
   }
 
   async #step(step: "undo" | "redo"): Promise<void> {
-    const [from, to] = step === "undo" ? [this.#done, this.#undone] : [this.#undone, this.#done];
-    const count = from.at(-1) ?? 1;
+    const count = this.#taken.count(step);
     let made = 0;
     try {
       while (made < count && (step === "undo" ? this.#state.canUndo : this.#state.canRedo)) {
@@ -231,10 +229,9 @@ export class Link {
     } catch (error) {
       if (!(error instanceof Problem) || isLost(error)) throw error;
       // Somebody else's change has come between: it is not ours to take back.
-      this.#done = this.#undone = [];
+      this.#taken.forget();
     }
-    from.pop();
-    if (made > 0) to.push(made);
+    this.#taken.taken(step, made);
     this.#steps.shift();
     this.#see(await this.#program.get());
   }
@@ -245,7 +242,7 @@ export class Link {
     const program = await this.#program.get();
     if (latest) this.#take(latest);
     this.#state = { ...this.#state, revision: Math.max(this.#state.revision, heard) };
-    this.#done = this.#undone = [];
+    this.#taken.forget();
     this.#see(program);
   }
 
@@ -273,17 +270,6 @@ export class Link {
       }
       await wait(LONGEST_PAUSE / 2);
     }
-  }
-
-  #count(revision: Revision, change: number): void {
-    const isNew = revision.revision > this.#state.revision;
-    this.#take(revision);
-    if (!isNew) return;
-    this.#undone = [];
-    const last = this.#done.at(-1);
-    if (change === this.#countedChange && last !== undefined) this.#done.splice(-1, 1, last + 1);
-    else this.#done.push(1);
-    this.#countedChange = change;
   }
 
   /** Take note of a revision. */

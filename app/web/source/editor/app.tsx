@@ -46,18 +46,24 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
   const [isOpening, setIsOpening] = useState(false);
   const [trouble, setTrouble] = useState("");
   const isShown = useRef(false);
+  const [isComing, setIsComing] = useState(false);
 
   const show = useCallback(
     (program: ProgramDocument) => {
+      setIsComing(!isShown.current);
       void graphOf(program, CLIENT).then(
         (found) => {
+          setIsComing(false);
           const { items: _, hyperedges: __, ...rest } = program;
           setFrame(rest);
           setGraph((now) => keptSelection(now, found));
           if (!isShown.current) setTimeout(() => void flow.fitView({ padding: 0.15, maxZoom: 1 }), 50);
           isShown.current = true;
         },
-        (error: unknown) => setTrouble(error instanceof Error ? error.message : String(error)),
+        (error: unknown) => {
+          setIsComing(false);
+          setTrouble(error instanceof Error ? error.message : String(error));
+        },
       );
     },
     [flow],
@@ -131,6 +137,7 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
       .catch((error: unknown) => setTrouble(error instanceof Error ? error.message : String(error)));
   };
 
+  const isOpen = isNew || (link.revision > 0 && !isComing);
   const isAnything = graph.nodes.some((node) => node.selected) || graph.edges.some((edge) => edge.selected);
   return (
     <>
@@ -151,7 +158,7 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
       />
       <main>
         <Palette onAdd={add} />
-        <section className="canvas" aria-label="Editor">
+        <section className={isOpen ? "canvas" : "canvas waiting"} aria-label="Editor">
           <Editing.Provider value={acts}>
             <Canvas graph={graph} setGraph={setGraph} colorMode={theme} onGesture={onGesture} />
           </Editing.Provider>

@@ -13,7 +13,15 @@ import {
   type FinalConnectionState,
   type NodeChange,
 } from "@xyflow/react";
-import { useCallback, useMemo, type Dispatch, type DragEvent, type KeyboardEvent, type ReactElement, type SetStateAction } from "react";
+import {
+  useCallback,
+  useMemo,
+  type Dispatch,
+  type DragEvent,
+  type KeyboardEvent,
+  type ReactElement,
+  type SetStateAction,
+} from "react";
 import { JUNCTION } from "tubeloom-react-flow";
 import { added, endOf, joined, ORIGIN, settled, type AppNode, type End, type Graph } from "./graph.ts";
 import { KINDS } from "./kinds.ts";
@@ -55,7 +63,9 @@ export function Canvas({ graph, setGraph, colorMode, onGesture }: CanvasProps): 
   const onConnectEnd = useCallback(
     (event: MouseEvent | TouchEvent, { fromNode, fromHandle, toHandle }: FinalConnectionState) => {
       if (toHandle || !fromNode || fromHandle?.id == null) return;
-      const { clientX: x, clientY: y } = "changedTouches" in event ? (event.changedTouches[0] ?? { clientX: 0, clientY: 0 }) : event;
+      const pointer = "changedTouches" in event ? event.changedTouches[0] : event;
+      if (pointer === undefined) return;
+      const { clientX: x, clientY: y } = pointer;
       const from: End = { item: fromNode.id, handle: fromHandle.id };
       const under = document.elementsFromPoint(x, y);
       const found = (selector: string) =>

@@ -1,5 +1,5 @@
 import { JUNCTION } from "tubeloom-react-flow";
-import { endOf, joined, settled, type End, type Graph } from "./graph.ts";
+import { endOf, joined, mean, settled, type End, type Graph } from "./graph.ts";
 
 /** Join the chosen handles, and a handle of each selected node beside them. */
 export function joinChosen(graph: Graph, picked: ReadonlySet<string>): Graph {
@@ -10,9 +10,7 @@ export function joinChosen(graph: Graph, picked: ReadonlySet<string>): Graph {
   const nodes = graph.nodes.filter(({ id, selected }) => selected && !ends.some(({ item }) => item === id));
   const junctions = new Set(nodes.filter(({ type }) => type === JUNCTION).map(({ id }) => id));
   for (const { target, selected } of graph.edges) if (selected) junctions.add(target);
-  const places = nodes.map(({ position }) => position);
-  const count = Math.max(places.length, 1);
-  const near = { x: places.reduce((sum, { x }) => sum + x, 0) / count, y: places.reduce((sum, { y }) => sum + y, 0) / count };
+  const near = { x: mean(nodes.map(({ position }) => position.x)), y: mean(nodes.map(({ position }) => position.y)) };
   const others: End[] = [];
   for (const node of nodes) {
     if (node.type === JUNCTION) continue;
@@ -32,7 +30,9 @@ export function countChosen(graph: Graph, picked: ReadonlySet<string>): number {
 /** Without what is selected, and without what is contained in it. */
 export function removed({ nodes, edges }: Graph): Graph {
   const gone = new Set<string>();
-  for (const node of nodes) if (node.selected || (node.parentId !== undefined && gone.has(node.parentId))) gone.add(node.id);
+  for (const { id, parentId, selected } of nodes) {
+    if (selected || (parentId !== undefined && gone.has(parentId))) gone.add(id);
+  }
   return settled({
     nodes: nodes.filter(({ id }) => !gone.has(id)),
     edges: edges.filter(({ selected }) => !selected),

@@ -31,7 +31,8 @@ export function titleOf(node: AppNode | undefined): string {
 
 /** The junctions at a handle. */
 export function junctionsAt({ edges }: Graph, { item, handle }: End): string[] {
-  return edges.filter(({ source, sourceHandle }) => source === item && sourceHandle === handle).map((edge) => edge.target);
+  const there = edges.filter(({ source, sourceHandle }) => source === item && sourceHandle === handle);
+  return there.map(({ target }) => target);
 }
 
 /**
@@ -149,6 +150,6 @@ function freePlace(graph: Graph, near: { x: number; y: number }): { x: number; y
   }
 }
 
-function mean(values: readonly number[]): number {
+export function mean(values: readonly number[]): number {
   return Math.round(values.reduce((sum, value) => sum + value, 0) / Math.max(values.length, 1));
 }

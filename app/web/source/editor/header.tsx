@@ -64,7 +64,13 @@ export function Header({ name, onName, theme, onTheme, commands }: HeaderProps):
         <button type="button" onClick={commands.save}>
           Save
         </button>
-        <button type="button" aria-label="Dark theme" title="Dark theme" aria-pressed={theme === "dark"} onClick={onTheme}>
+        <button
+          type="button"
+          aria-label="Dark theme"
+          title="Dark theme"
+          aria-pressed={theme === "dark"}
+          onClick={onTheme}
+        >
           <Picture of="theme" />
         </button>
       </div>
