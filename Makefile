@@ -54,7 +54,7 @@ $(VENV)/bench.done: requirements-bench.lock benchmarks/node/package-lock.json $(
 
 test: check  ## everything that must hold: checks, then all tests
 	$(BIN)/python -m pytest -q --doctest-modules app
-	$(BIN)/python -m pytest -n 2 --dist loadfile
+	$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 check: setup-dev  ## format, lint, types, import rules, of pages too
 	$(BIN)/ruff format --check .

@@ -39,6 +39,7 @@ from app.pictures import BEGUN, Artist, size_of_one_eye
 from app.program.collection import collection_paused
 from app.program.digest import canonical
 from app.program.model import Program
+from app.recent_layouts import recent_layouts
 from app.revising import revise
 from app.scene.scene import Scene
 from app.settings import Settings
@@ -105,11 +106,12 @@ def render(
     _refuse_too_many_pixels(options, settings)
     with collection_paused():
         progress("reading", 0.0)
-        program = registry.read(options.source, data, settings)
+        recent = recent_layouts.get(data, layout)
+        program = recent.program if recent else registry.read(options.source, data, settings)
         etag = validator(program, replace(options, stretch=None), layout)
         if is_known(etag, known):
             return Unchanged(etag)
-        laid = None if layout is None else read_layout(program, layout)
+        laid = recent or (None if layout is None else read_layout(program, layout))
         seconds = TIME_FOR_PICTURES * settings.deadline_seconds
         seconds = min(options.effort.time_limit or seconds, seconds)
         share = 1.0 if options.stretch is None else options.stretch.share

@@ -27,6 +27,7 @@ from app.program.model import Program
 from app.program.patching import apply_json_patch, apply_merge_patch
 from app.program.reading import read_program
 from app.program.renaming import renamed
+from app.recent_layouts import recent_layouts
 from app.settings import Settings
 
 
@@ -44,8 +45,8 @@ def revise(
     do; then nothing has happened.
     """
     progress("reading", 0.0)
-    before = read_program(document, settings) if document else None
-    previous = None if before is None else _layout_of(before, layout)
+    previous = _previous(document, layout, settings)
+    before = None if previous is None else previous.program
     if isinstance(change, Restoration):
         revised = _restored(previous, change, settings)
     else:
@@ -56,12 +57,19 @@ def revise(
         laid = lay_out(edited.program, known, progress)
         progress("writing", 0.6)
         revised = _revised(previous, laid, canonical(edited.program), write_layout(laid))
+        recent_layouts.put(revised.document, revised.layout, laid)
     progress("done", 1.0)
     return revised
 
 
-def _layout_of(program: Program, layout: bytes | None) -> Layout:
-    return (None if layout is None else read_layout(program, layout)) or lay_out(program)
+def _previous(document: bytes, layout: bytes | None, settings: Settings) -> Layout | None:
+    if not document:
+        return None
+    if (recent := recent_layouts.get(document, layout)) is not None:
+        return recent
+    program = read_program(document, settings)
+    read = None if layout is None else read_layout(program, layout)
+    return read or lay_out(program)
 
 
 def _restored(previous: Layout | None, change: Restoration, settings: Settings) -> Revised:

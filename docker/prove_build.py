@@ -15,6 +15,9 @@ from steps import Stage, Step, stages
 REPOSITORY = Path(__file__).resolve().parent.parent
 SUITE = "trixie"
 
+UNSENT = ("__pycache__", "node_modules", "built")
+"""What the builder is not sent, besides what `Dockerfile.dockerignore` leaves out anyway."""
+
 BINDS = ["/etc/ssl/certs", *os.environ.get("PROVE_BINDS", "").split()]
 """Of this machine, read-only while steps run: what it needs to get at packages."""
 
@@ -80,7 +83,7 @@ def copy(step: Step, root: Path, stages: dict[str, Path]) -> None:
         found = start / source.lstrip("/")
         to = into / found.name if target.endswith("/") else into
         if found.is_dir():
-            ignored = None if "from" in flags else shutil.ignore_patterns("__pycache__")
+            ignored = None if "from" in flags else shutil.ignore_patterns(*UNSENT)
             shutil.copytree(found, to, symlinks=True, ignore=ignored, dirs_exist_ok=True)
         else:
             shutil.copy2(found, to)

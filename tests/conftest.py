@@ -6,6 +6,20 @@ import os
 
 import pytest
 
+LONG = (
+    *("cluster", "editor", "shelf", "jobs_survive", "examples", "jobs", "stored_under_stress"),
+    *("react_flow", "playground", "under_load", "survival", "typescript_client", "viewer", "pages"),
+    *("executor", "health", "load", "python_client", "films", "draft", "answering", "offline"),
+)
+"""Tests of these take the longest together. They begin first, so that at the end no processor is
+left alone with one of them."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Order files of tests; within a file all stays as it is."""
+    places = {f"test_{name}.py": place for place, name in enumerate(LONG)}
+    items.sort(key=lambda item: places.get(item.path.name, len(LONG)))
+
 
 def require(condition: object, reason: str) -> None:
     """Skip the test where this machine lacks something; where CI is true, fail it instead."""

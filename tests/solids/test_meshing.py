@@ -12,7 +12,7 @@ from app.solids.meshing import mesh_of
 from app.solids.solid import Arrow, Box, Cone, Cylinder, Solid, Sphere, Text, Tray
 from tests.solids.surfaces import assert_closed, assert_sound, encloses, largest_deviation, welded
 
-lengths = st.floats(1e-3, 1e5)
+lengths = st.floats(1e-2, 1e4)
 edges = st.one_of(st.just(0.0), st.floats(1e-6, 1e5))
 sizes = st.tuples(lengths, lengths, lengths)
 solids: st.SearchStrategy[Solid] = st.one_of(

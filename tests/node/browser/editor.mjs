@@ -14,7 +14,7 @@ before(async () => {
 after(() => browser?.close());
 
 beforeEach(async () => {
-  page = await open(browser, "/editor", { viewport: { width: 1280, height: 800 }, colorScheme: "light" });
+  page = await open(browser, "/editor", { viewport: { width: 1000, height: 640 }, colorScheme: "light" });
   await saved();
   await shown(page);
 });

@@ -30,8 +30,8 @@ const steps = {
     await heard(program, "status", "({ status }) => status === 'offline'");
   },
   async back() {
-    const { at } = await heard(pages.stored, "status", "({ status }) => status === 'offline'");
     for (const page of Object.values(pages)) {
+      const { at } = await heard(page, "status", "({ status }) => status === 'offline'");
       await heard(page, "status", `({ status, at }) => status === 'live' && at > ${at}`);
     }
     const note = pages.stored.locator("tube-viewer").getByRole("status");

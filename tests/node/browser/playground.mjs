@@ -24,9 +24,9 @@ let browser;
 before(async () => (browser = await launch()));
 after(() => browser.close());
 
-/** The playground, with a program if one is given. */
-async function playground(text, options = {}) {
-  const page = await open(browser, "/", { viewport: { width: 1200, height: 700 }, ...options });
+/** The playground with a small example, or with a program if one is given. */
+async function playground(text, options = {}, path = "/#example=hello") {
+  const page = await open(browser, path, { viewport: { width: 1000, height: 600 }, ...options });
   await shown(page);
   if (text !== undefined) await write(page, text);
   return page;
@@ -44,7 +44,7 @@ async function write(page, text) {
 const later = (now, more = "true") => `({ at, ...rest }) => at > ${now} && ((event) => ${more})(rest)`;
 
 test("it opens with the second clause of the paper's program, and says that nothing touches", async () => {
-  const page = await playground();
+  const page = await playground(undefined, {}, "/");
   const { items, hyperedges } = await heard(page, "load");
   assert.deepEqual([items, hyperedges], [54, 9]);
   await heard(page, "clearance");

@@ -206,6 +206,7 @@ export class TubeViewer extends HTMLElement {
       toggleMotion: () => this.#toggle("motion", "sway"),
       stereo: (kind) => this.setAttribute("stereo", kind),
       save: () => void this.#save(),
+      headset: () => void this.enterHeadset(),
     };
   }
 

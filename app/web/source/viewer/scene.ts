@@ -4,14 +4,14 @@ import {
   Light,
   Matrix4,
   Mesh,
-  MeshLambertMaterial,
-  MeshStandardMaterial,
   Vector3,
   type Material,
   type Object3D,
 } from "three";
 import type { GLTF } from "three/addons/loaders/GLTFLoader.js";
 import { cornersOf } from "./camera.ts";
+import { canShare, merged, MOST_MESHES, type Piece } from "./merging.ts";
+import { simplify } from "./plain.ts";
 import { keyOf, type Thing, type ThingKey, type ThingName } from "./things.ts";
 
 /**
@@ -63,6 +63,9 @@ export class Scene {
     for (const each of thingsOf(gltf.scene)) this.remove(each);
     // It brings the same lights once more.
     for (const light of lightsOf(gltf.scene)) light.removeFromParent();
+    for (const emptied of this.root.children.filter((part) => !hasMeshes(part) && !hasLights(part))) {
+      emptied.removeFromParent();
+    }
     this.root.add(gltf.scene);
     this.#take(gltf.scene);
     return true;
@@ -175,6 +178,7 @@ export class Scene {
     scene.getObjectByName("ground")?.removeFromParent();
     if (this.isPlain) simplify(scene);
     scene.updateMatrixWorld(true);
+    const pieces: Piece[] = [];
     scene.traverse((object) => {
       const { shows } = object.userData as { shows?: string };
       if (shows === "hyperedges") {
@@ -184,13 +188,21 @@ export class Scene {
         const thing = object.userData as Thing;
         const key = keyOf(thing);
         this.things.set(key, thing);
-        for (const mesh of meshesOf(object)) {
-          mesh.geometry.computeBoundingBox();
-          const box = mesh.geometry.boundingBox ?? new Box3();
-          this.#add({ mesh, start: 0, count: lengthOf(mesh.geometry), box, key });
-        }
+        for (const mesh of meshesOf(object)) pieces.push({ mesh, key });
       }
     });
+    const isCrowd = pieces.length > MOST_MESHES;
+    const shared = isCrowd ? pieces.filter(canShare) : [];
+    for (const { mesh, key } of isCrowd ? pieces.filter((piece) => !canShare(piece)) : pieces) {
+      mesh.geometry.computeBoundingBox();
+      const box = mesh.geometry.boundingBox ?? new Box3();
+      this.#add({ mesh, start: 0, count: lengthOf(mesh.geometry), box, key });
+    }
+    for (const part of merged(shared)) {
+      this.#add(part);
+      scene.add(part.mesh);
+    }
+    for (const { mesh } of shared) mesh.removeFromParent();
     this.#box = undefined;
   }
 
@@ -256,6 +268,14 @@ function thingsOf(scene: Object3D): ThingName[] {
   return found;
 }
 
+function hasMeshes(object: Object3D): boolean {
+  return object instanceof Mesh || object.children.some(hasMeshes);
+}
+
+function hasLights(object: Object3D): boolean {
+  return lightsOf(object).length > 0;
+}
+
 function lightsOf(scene: Object3D): Light[] {
   const found: Light[] = [];
   scene.traverse((object) => {
@@ -274,27 +294,6 @@ function free(mesh: Mesh): void {
   for (const material of materials) material.dispose();
 }
 
-/** Has matte light on everything: without a graphics card that is drawn in half the time. */
-function simplify(scene: Object3D): void {
-  const simple = new Map<Material, Material>();
-  scene.traverse((object) => {
-    if (!(object instanceof Mesh) || !(object.material instanceof MeshStandardMaterial)) return;
-    const { material } = object;
-    let made = simple.get(material);
-    if (made === undefined) {
-      const { name, color, map, vertexColors, transparent, opacity, side } = material;
-      const isGlass = "transmission" in material && Number(material.transmission) > 0;
-      made = new MeshLambertMaterial({ name, color, map, vertexColors, side });
-      made.transparent = transparent || isGlass;
-      made.opacity = isGlass ? GLASS_OPACITY : opacity;
-      made.depthWrite = !isGlass;
-      simple.set(material, made);
-    }
-    object.material = made;
-  });
-}
-
-const GLASS_OPACITY = 0.35;
 /** At so many corners of a thing an anchor is looked for. */
 const ANCHOR_SAMPLES = 500;
 

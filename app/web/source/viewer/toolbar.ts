@@ -6,12 +6,14 @@ import { STEREO, type Stereo } from "./stereo.ts";
 export interface ToolbarCommands extends Commands {
   stereo(kind: Stereo): void;
   save(): void;
+  headset(): void;
 }
 
 const ICONS = {
   fit: "M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4M7 10a3 3 0 1 0 6 0a3 3 0 1 0-6 0",
   motion: "M3 10a7 3 0 0 1 14 0a7 3 0 0 1-9 2.9M10 10.5l-2.2 2.3 2.6 2",
   others: "M2 10s3-5 8-5 8 5 8 5-3 5-8 5-8-5-8-5zM4 17L16 3",
+  headset: "M3 6h14v8h-4l-1.500-2.500h-3L7 14H3z",
   save: "M10 3v9M6.5 9L10 12.5 13.500 9M3.500 16.500h13",
 };
 
@@ -51,6 +53,9 @@ export class Toolbar {
       this.#eyes,
       button("Save the picture", ICONS.save, () => commands.save()),
     );
+    void hasHeadset().then((found) => {
+      if (found) bar.append(button("Show in the headset", ICONS.headset, () => commands.headset()));
+    });
   }
 
   /** Show what is on. */
@@ -58,6 +63,14 @@ export class Toolbar {
     this.#others.setAttribute("aria-pressed", String(others === "hide"));
     this.#motion.setAttribute("aria-pressed", String(motion !== "none"));
     this.#eyes.value = stereo;
+  }
+}
+
+async function hasHeadset(): Promise<boolean> {
+  try {
+    return (await navigator.xr?.isSessionSupported("immersive-vr")) ?? false;
+  } catch {
+    return false;
   }
 }
 
