@@ -160,7 +160,10 @@ def main() -> None:
     parser.add_argument("--rate", type=float, default=10.0)
     parser.add_argument("--json", action="store_true")
     asked = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder, running_service(Path(folder)) as service:
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        running_service(Path(folder), kept_revisions=1000) as service,
+    ):
         outcome = measure(service, asked.viewers, asked.seconds, asked.rate)
     if asked.json:
         late = float(np.quantile(outcome.since_sent, 0.99))
