@@ -20,6 +20,8 @@ export default defineConfig({
     target: "es2022",
     assetsInlineLimit: 0,
     assetsDir: "web",
+    // What the pages are made of is other people's work too: their licences come along.
+    license: { fileName: "licenses.md" },
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 900,
     rolldownOptions: {
