@@ -109,9 +109,11 @@ const ready = new Promise((resolve, reject) => {{
 }});
 async function at(seconds) {{
   await ready;
+  // A browser that is busy says that it has sought the place before the frame is there.
+  const presented = new Promise(resolve => video.requestVideoFrameCallback(resolve));
   const sought = new Promise(resolve => video.addEventListener("seeked", resolve, {{once: true}}));
   video.currentTime = seconds;
-  await sought;
+  await Promise.all([sought, presented]);
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [video.videoWidth, video.videoHeight];
   canvas.getContext("2d").drawImage(video, 0, 0);

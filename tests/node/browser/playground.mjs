@@ -28,7 +28,7 @@ after(() => browser.close());
 async function playground(text, options = {}, path = "/#example=hello") {
   const page = await open(browser, path, { viewport: { width: 1000, height: 600 }, ...options });
   await shown(page);
-  if (text !== undefined) await write(page, text);
+  if (text !== undefined) await heard(page, "load", later(await write(page, text)));
   return page;
 }
 
