@@ -31,11 +31,11 @@ def environment(url: str) -> dict[str, str]:
     return {**os.environ, "TUBELOOM_URL": url, "CHROMIUM": str(chromium)}
 
 
-def run_script(name: str, url: str) -> None:
-    """Run a script of tests by node's own test runner."""
+def run_script(name: str | Path, url: str, **further: str) -> None:
+    """Run a script of tests by node's own test runner, with ``further`` in its environment."""
     done = subprocess.run(
         ["node", "--test", "--test-reporter=spec", str(SCRIPTS / name)],
-        env=environment(url),
+        env={**environment(url), **further},
         capture_output=True,
         text=True,
         check=False,

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from tests.browser.conftest import SCRIPTS, environment
+from tests.browser.conftest import run_script
 from tests.clients.ports import free_port
 from tests.service import running_service
 
@@ -44,12 +44,4 @@ def test_the_page_of_an_editor_works_as_it_is_written(tmp_path: Path) -> None:
         page = block("html").replace("http://127.0.0.1:8000", service.url)
         (tmp_path / "editor" / "index.html").write_text(page)
         with served(tmp_path / "editor", port) as url:
-            done = subprocess.run(
-                ["node", "--test", "--test-reporter=spec", str(SCRIPTS / "connect.mjs")],
-                env={**environment(service.url), "EDITOR_URL": url},
-                capture_output=True,
-                text=True,
-                check=False,
-                timeout=300,
-            )
-    assert done.returncode == 0, done.stdout + done.stderr
+            run_script("connect.mjs", service.url, EDITOR_URL=url)
