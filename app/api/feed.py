@@ -143,7 +143,7 @@ class Feed:
                     partial(programs.kept_after, program=program, number=number)
                 )
                 events = [(record.number, event_of(record)) for record in records]
-                if events and events[0][0] > number + 1:
+                if events and len(events) < events[-1][0] - number:
                     newest = records[-1]
                     if newest.cause != "delete":
                         events = [(newest.number, _note("reset", newest.number))]

@@ -19,7 +19,7 @@ from app.api.negotiation import media_type_of
 from app.api.once import check_is_same, fingerprint_of, request_of
 from app.api.preconditions import precondition
 from app.api.problems import PatchTypeError
-from app.api.queries import PostedQuery, Query, RevisionQuery
+from app.api.queries import Flag, PostedQuery, Query, RevisionQuery
 from app.api.responses import COMMON_HEADERS, content_disposition
 from app.api.revision_model import (
     ListedModel,
@@ -63,6 +63,16 @@ class ListQuery(Query):
     limit: int = Field(100, ge=1, le=MOST_LISTED)
     after: str | None = Field(
         None, pattern=r"^[A-Za-z0-9._~-]{0,200}$", description="The part that follows this id."
+    )
+
+
+class EditQuery(Query):
+    """What may be asked of edits."""
+
+    amend: Flag = Field(
+        False,
+        description="Whether they are one change to undo with the edits before, such as all steps "
+        "of one drag. After anything else than edits they are a change of their own.",
     )
 
 
@@ -121,10 +131,12 @@ async def patch_program(request: Request, program: ProgramId) -> Response:
 
 
 @router.post("/{id}/edits", **describe_change("edits"))
-async def edit_program(request: Request, program: ProgramId) -> Response:
+async def edit_program(
+    request: Request, program: ProgramId, query: Annotated[EditQuery, QueryParameters()]
+) -> Response:
     """Change the program by edits that say what they mean: all of them are done, or none."""
     body = await _body(request)
-    return await _change(request, program, "edit", Edits(body), body)
+    return await _change(request, program, "edit", Edits(body), body, amends=query.amend)
 
 
 @router.post("/{id}/undo", **describe_change("undo"))
@@ -170,7 +182,13 @@ async def _body(request: Request) -> bytes:
 
 
 async def _change(
-    request: Request, program: str, cause: Cause, wanted: Wanted, body: bytes
+    request: Request,
+    program: str,
+    cause: Cause,
+    wanted: Wanted,
+    body: bytes,
+    *,
+    amends: bool = False,
 ) -> Response:
     changer: Changer = request.app.state.changer
     fingerprint = fingerprint_of(request, body)
@@ -181,6 +199,7 @@ async def _change(
         precondition(request),
         partial(_reply, request.url.path, fingerprint),
         request_of(request),
+        amends,
     )
     reply = await changer.change(wish)
     check_is_same(reply, fingerprint)

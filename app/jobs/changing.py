@@ -33,6 +33,7 @@ class Wish:
     be changed. ``reply`` makes an answer of the newest revision, and of whether
     the program is new; with a ``request`` that says who asked what, it is
     answered again to whoever asks the same again, and nothing more is done.
+    What ``amends`` is one change to undo with the edit before, if there was one.
     """
 
     program: str
@@ -41,6 +42,7 @@ class Wish:
     check: Callable[[Record | None], None]
     reply: Callable[[Record, bool], Reply]
     request: str | None = None
+    amends: bool = False
 
 
 @dataclass(slots=True)
@@ -100,7 +102,7 @@ class Changer:
                 raise StoreFull(
                     f"There are {state.programs} programs already, as many as this service takes."
                 )
-        return await self._revise(wish, state, _plan(wish.wanted, state))
+        return await self._revise(wish, state, _plan(wish.wanted, wish.amends, state))
 
     async def _revise(self, wish: Wish, state: _State, plan: _Plan) -> Reply:
         content = state.content
@@ -191,11 +193,14 @@ class _Plan:
     is_step: bool = False
 
 
-def _plan(wanted: Change | Way, state: _State) -> _Plan:
+def _plan(wanted: Change | Way, amends: bool, state: _State) -> _Plan:
     """Raises `NothingToUndo`."""
     newest = None if state.content is None else state.content.record
     if not isinstance(wanted, str):
-        return _Plan(wanted, None if newest is None else newest.number)
+        if newest is None:
+            return _Plan(wanted, None)
+        is_one = amends and newest.cause == "edit"
+        return _Plan(wanted, newest.undo_to if is_one else newest.number)
     if newest is None or _aim(wanted, newest) is None:
         raise NothingToUndo(
             "There is no change to take back."

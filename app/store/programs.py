@@ -2,7 +2,8 @@
 
 Every change is a new revision whose number is one higher, undoing and redoing too. A revision
 knows which one's content an undo of it restores (``undo_to``), and which one's a redo
-(``redo_to``).
+(``redo_to``). An edit that amends the one before has the same ``undo_to``: then nothing leads to
+the one before, and it goes sooner than others.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import zlib
 from collections.abc import Sequence
 from typing import Any
 
-from sqlalchemy import Connection, Row, Select, delete, func, insert, select, update
+from sqlalchemy import Connection, Row, Select, delete, exists, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from app.answers import Revised
@@ -134,6 +135,8 @@ def add(
 ) -> Record:
     """Make ``revised`` the revision after ``before``, and ``keep`` so many in all.
 
+    Of those that were amended a quarter as many are kept, for whoever follows what happens.
+
     ``at`` is the time of the change: where it is tried again because nobody knows whether it was
     done, it is found out. Raises `Outdated` where somebody else made one meanwhile.
     """
@@ -163,11 +166,7 @@ def add(
         at,
     )
     _insert(connection, record, revised.document, revised.layout)
-    connection.execute(
-        delete(revisions).where(
-            revisions.c.program == program, revisions.c.number <= record.number - keep
-        )
-    )
+    _forget(connection, program, number, keep)
     return record
 
 
@@ -227,6 +226,21 @@ def _step(
     )
     if done.rowcount == 0:
         raise Outdated("The program was changed by somebody else meanwhile.")
+
+
+def _forget(connection: Connection, program: str, newest: int, keep: int) -> None:
+    """Delete the revisions that are too many."""
+    late = newest - max(1, keep // 4)
+    own = revisions.alias()
+    kept = select(own.c.number).where(own.c.program == program)
+    oldest = kept.order_by(own.c.number.desc()).offset(keep - 1).limit(1).scalar_subquery()
+    amends = (own.c.number == late + 1) & (own.c.cause == "edit") & (own.c.undo_to < late)
+    is_amended = (revisions.c.number == late) & exists(kept.where(amends))
+    connection.execute(
+        delete(revisions).where(
+            revisions.c.program == program, (revisions.c.number < oldest) | is_amended
+        )
+    )
 
 
 def _insert(connection: Connection, record: Record, document: bytes, layout: bytes) -> None:

@@ -98,6 +98,26 @@ def test_who_was_away_for_too_long_is_told(strict: Service) -> None:
         assert "tubeloom-since" not in whole.headers
 
 
+def test_each_step_of_a_drag_is_told_and_who_missed_some_loads_anew(
+    service: Service, client: httpx.Client, path: str
+) -> None:
+    relabel(client, path, "before")
+    with watching(service, path) as heard:
+        assert next(heard) == Event("current", {"revision": 2})
+        for number in range(3, 43):
+            edit = {"type": "set_item", "id": "y", "fields": {"label": str(number)}}
+            query = {"amend": "true"} if number > 3 else {}
+            client.post(f"{path}/edits", json={"edits": [edit]}, params=query).raise_for_status()
+            assert next(heard).data["revision"] == number
+    with watching(service, path, last="1") as heard:
+        assert next(heard) == Event("reset", {"revision": 42})
+    with watching(service, path, last="17") as heard:
+        assert next(heard).data["revision"] == 18
+    for since, part in ((1, None), (17, "17")):
+        render = client.get(f"{path}/render", params={"since": since})
+        assert (render.status_code, render.headers.get("tubeloom-since")) == (200, part)
+
+
 def test_only_so_many_may_watch(strict: Service) -> None:
     path = "/v1/programs/watched"
     with strict.client() as client:

@@ -128,6 +128,36 @@ def test_undo_gives_the_same_bytes(client: httpx.Client, path: str) -> None:
     assert causes == [*["redo"] * 3, *["undo"] * 3, *["edit"] * 3, "put"]
 
 
+def test_all_steps_of_a_drag_are_one_change_to_undo(client: httpx.Client, path: str) -> None:
+    def drag(x: float, **query: str) -> dict[str, Any]:
+        fields = {"position": [x, 0, 0]}
+        edits = [{"type": "set_item", "id": "y", "fields": fields}]
+        answer = client.post(f"{path}/edits", json={"edits": edits}, params=query)
+        assert answer.status_code == 200, answer.text
+        found: dict[str, Any] = answer.json()
+        return found
+
+    client.put(path, json=SMALL)
+    states = [client.get(path).content]
+    for x in (1.0, 5.0):
+        drag(x, amend="false")
+        revisions = [drag(x + step / 4, amend="true")["revision"] for step in range(1, 4)]
+        states.append(client.get(path).content)
+    assert revisions == [7, 8, 9]
+    for before in (1, 0):
+        client.post(f"{path}/undo").raise_for_status()
+        assert client.get(path).content == states[before]
+    assert client.post(f"{path}/undo").status_code == 409
+    for after in (1, 2):
+        client.post(f"{path}/redo").raise_for_status()
+        assert client.get(path).content == states[after]
+    drag(9.0, amend="true")
+    client.post(f"{path}/undo").raise_for_status()
+    assert client.get(path).content == states[2], "what follows a redo is a change of its own"
+    wrong = client.post(f"{path}/edits", json={"edits": [ADD]}, params={"amend": "yes"})
+    assert wrong.status_code == 400
+
+
 def test_an_edit_after_an_undo_ends_what_could_be_redone(client: httpx.Client, path: str) -> None:
     client.put(path, json=SMALL)
     edit(client, path, ADD)

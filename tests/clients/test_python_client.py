@@ -121,6 +121,16 @@ def test_a_stored_program_is_put_edited_undone_and_redone(client: Client) -> Non
         program.get()
 
 
+def test_edits_that_amend_are_one_change_to_undo(client: Client) -> None:
+    program = client.program("amended")
+    first = program.put(SMALL)
+    for number, amend in ((0, False), (1, True), (2, True)):
+        change = program.amend if amend else program.edit
+        change({"type": "set_item", "id": "y", "fields": {"label": str(number)}})
+    assert program.undo().digest == first.digest
+    assert program.redo().revision == 6
+
+
 def test_a_stored_program_is_looked_at(client: Client) -> None:
     program = client.program("looked-at")
     program.put(SMALL)

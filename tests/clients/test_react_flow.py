@@ -16,7 +16,7 @@ from tests.service import PATIENCE_SECONDS, Service, running_service
 ADAPTER = Path(__file__).parents[2] / "clients" / "react-flow" / "src"
 DRIVERS = Path(__file__).with_name("react_flow")
 
-WITHOUT_REACT = ("graph", "places", "program-of", "flow-of", "edits-between", "link", "steps")
+WITHOUT_REACT = ("graph", "places", "program-of", "flow-of", "edits-between", "link")
 
 ROUNDS = int(os.environ.get("TUBELOOM_TEST_ROUNDS", "25"))
 

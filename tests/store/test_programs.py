@@ -116,6 +116,31 @@ def test_as_many_revisions_are_kept_as_are_wanted(database: Database, name: str)
     assert old.document == b"5"
 
 
+def test_a_change_in_many_steps_takes_no_place_from_others(database: Database, name: str) -> None:
+    head = None
+    for number in range(1, 31):
+        is_step = number > 10
+        database.do(
+            partial(
+                programs.add,
+                program=name,
+                before=head,
+                cause="edit",
+                revised=revised(str(number)),
+                undo_to=9 if is_step else number - 1,
+                keep=8,
+                at=1000,
+            )
+        )
+        head = Head(number, is_deleted=False)
+    kept = database.do(partial(programs.kept_after, program=name, number=0))
+    assert [record.number for record in kept] == [5, 6, 7, 8, 9, 29, 30]
+    add(database, name, head, "another", keep=8)
+    add(database, name, Head(31, is_deleted=False), "and another", keep=8)
+    kept = database.do(partial(programs.kept_after, program=name, number=0))
+    assert [record.number for record in kept] == [5, 6, 7, 8, 9, 30, 31, 32]
+
+
 def test_numbers_go_on_after_a_program_was_deleted(database: Database, name: str) -> None:
     add(database, name, None, "first")
     first = Head(1, is_deleted=False)

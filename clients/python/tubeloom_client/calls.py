@@ -90,11 +90,14 @@ def put(
     return Call("PUT", _program(program), _changed, query, headers, body_of(document))
 
 
-def edit(program: str, edits: Sequence[Mapping[str, Any]], etag: str | None) -> Call[Changed]:
+def edit(
+    program: str, edits: Sequence[Mapping[str, Any]], etag: str | None, amend: bool
+) -> Call[Changed]:
     """Carry out edits, all or none."""
     headers = {**JSON, **_if_match(etag), **_once()}
     body = body_of({"edits": list(edits)})
-    return Call("POST", _program(program, "edits"), _changed, [], headers, body)
+    query = query_of(amend=amend or None)
+    return Call("POST", _program(program, "edits"), _changed, query, headers, body)
 
 
 def patch(

@@ -48,7 +48,11 @@ class Program:
 
     def edit(self, *edits: Mapping[str, Any]) -> Revision:
         """Carry out edits, all or none; what they do not concern stays where it is."""
-        return self._changed(calls.edit(self.id, edits, self.etag))
+        return self._changed(calls.edit(self.id, edits, self.etag, amend=False))
+
+    def amend(self, *edits: Mapping[str, Any]) -> Revision:
+        """Carry out edits that are one change to undo with the edits before."""
+        return self._changed(calls.edit(self.id, edits, self.etag, amend=True))
 
     def patch(self, change: Mapping[str, Any] | Sequence[Mapping[str, Any]]) -> Revision:
         """Change the document by a JSON Merge Patch (a mapping) or a JSON Patch (a sequence)."""

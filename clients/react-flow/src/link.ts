@@ -1,6 +1,5 @@
 import { Problem, type Client, type Program, type ProgramDocument, type Revision } from "tubeloom-client";
 import { editsBetween } from "./edits-between.js";
-import { Steps } from "./steps.js";
 
 /**
  * How things stand between an editor and the service. `refused`: the service does not take what was
@@ -26,7 +25,7 @@ export interface LinkListener {
 
 /** More are not done as one; then the whole program is sent. */
 const MOST_EDITS = 1000;
-/** While something is dragged; each sending makes a revision, and not all of them are kept. */
+/** While something is dragged: each sending makes a revision. */
 const PAUSE_IN_GESTURE = 60;
 const FIRST_PAUSE = 250;
 const LONGEST_PAUSE = 4000;
@@ -47,10 +46,11 @@ export class Link {
   #steps: ("undo" | "redo")[] = [];
   #heard = 0;
   #isRunning = false;
-  readonly #taken = new Steps();
   #isGesture = false;
   /** The number of the change that is wanted. */
   #change = 0;
+  /** The number of the change that made the newest revision, if one of ours did. */
+  #made: number | undefined;
 
   /** A client without patience lets the link tell sooner that the service does not answer. */
   constructor(client: Client, id: string, listener: LinkListener) {
@@ -177,30 +177,33 @@ export class Link {
     }
     try {
       const whole = edits.length > MOST_EDITS;
-      const revision = await (whole ? this.#program.put(wanted) : this.#program.edit(...edits));
+      const way = change === this.#made ? "amend" : "edit";
+      const revision = await (whole ? this.#program.put(wanted) : this.#program[way](...edits));
       this.#sent = wanted;
-      if (revision.revision > this.#state.revision) this.#taken.made(change);
+      if (revision.revision > this.#state.revision) this.#made = change;
       this.#take(revision);
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
       if (error.status === 404) await this.#putAnew(wanted);
-      else if (error.status === 412) await this.#reconcile(sent, wanted);
+      else if (error.status === 412) await this.#reconcile(sent, wanted, change);
       else throw error;
     }
   }
 
   /** Somebody was quicker: what they did stays, and ours is done upon it, if that is possible. */
-  async #reconcile(sent: ProgramDocument, wanted: ProgramDocument): Promise<void> {
+  async #reconcile(sent: ProgramDocument, wanted: ProgramDocument, change: number): Promise<void> {
     const theirs = await this.#program.get();
     const ours = editsBetween(sent, wanted);
     // An answer that got lost: it was ourselves.
     if (editsBetween(theirs, wanted).length === 0) {
       this.#sent = wanted;
+      this.#made = change;
       return;
     }
-    this.#taken.forget();
+    this.#made = undefined;
     try {
       this.#take(await this.#program.edit(...ours));
+      this.#made = change;
       const both = await this.#program.get();
       if (this.#wanted === wanted) this.#see(both);
       else this.#sent = wanted;
@@ -213,25 +216,19 @@ export class Link {
 
   async #putAnew(wanted: ProgramDocument): Promise<void> {
     this.#program.etag = undefined;
-    this.#taken.forget();
+    this.#made = undefined;
     this.#take(await this.#program.put(wanted));
     this.#sent = wanted;
   }
 
   async #step(step: "undo" | "redo"): Promise<void> {
-    const count = this.#taken.count(step);
-    let made = 0;
+    this.#made = undefined;
     try {
-      while (made < count && (step === "undo" ? this.#state.canUndo : this.#state.canRedo)) {
-        this.#take(await this.#program[step]());
-        made += 1;
-      }
+      if (step === "undo" ? this.#state.canUndo : this.#state.canRedo) this.#take(await this.#program[step]());
     } catch (error) {
+      // Where somebody else's change has come between, it is not ours to take back.
       if (!(error instanceof Problem) || isLost(error)) throw error;
-      // Somebody else's change has come between: it is not ours to take back.
-      this.#taken.forget();
     }
-    this.#taken.taken(step, made);
     this.#steps.shift();
     this.#see(await this.#program.get());
   }
@@ -242,7 +239,7 @@ export class Link {
     const program = await this.#program.get();
     if (latest) this.#take(latest);
     this.#state = { ...this.#state, revision: Math.max(this.#state.revision, heard) };
-    this.#taken.forget();
+    this.#made = undefined;
     this.#see(program);
   }
 

@@ -65,6 +65,11 @@ export class Program {
     return this.#change("POST", "/edits", { edits }, JSON_TYPE);
   }
 
+  /** Carry out edits that are one change to undo with the edits before, such as each step of a drag. */
+  amend(...edits: Edit[]): Promise<Revision> {
+    return this.#change("POST", "/edits?amend=true", { edits }, JSON_TYPE);
+  }
+
   /** Change the document by a JSON Patch (an array) or a JSON Merge Patch (anything else). */
   patch(change: readonly object[] | Record<string, unknown>): Promise<Revision> {
     const kind = Array.isArray(change) ? "json-patch" : "merge-patch";

@@ -5130,7 +5130,10 @@ export interface operations {
     };
     edit_program_v1_programs__id__edits_post: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Whether they are one change to undo with the edits before, such as all steps of one drag. After anything else than edits they are a change of their own. */
+                amend?: boolean;
+            };
             header?: {
                 /** @description The ETag of the revision that is to be changed. */
                 "If-Match"?: string;

@@ -54,9 +54,11 @@ test("what is done in one gesture is undone at once, and redone", async () => {
   link.endGesture();
   link.send(at(7));
   await saved();
+  equal(link.state.revision, 8);
   link.undo();
   link.undo();
   await until(() => programs.length === 2);
+  equal(link.state.revision, 10, "each step back is one request, however long the gesture was");
   equal(programs[1]?.items[0]?.position?.[0], 1);
   equal(await placeOf("gesture"), 1);
   link.redo();
