@@ -18,8 +18,19 @@ SUITE = "trixie"
 UNSENT = ("__pycache__", "node_modules", "built")
 """What the builder is not sent, besides what `Dockerfile.dockerignore` leaves out anyway."""
 
-BINDS = ["/etc/ssl/certs", *os.environ.get("PROVE_BINDS", "").split()]
+CERTIFICATES = "/run/certificates"
+"""Where steps find this machine's: at their usual place the steps may install others."""
+
+BINDS = {
+    "/etc/ssl/certs": CERTIFICATES,
+    **{path: path for path in os.environ.get("PROVE_BINDS", "").split()},
+}
 """Of this machine, read-only while steps run: what it needs to get at packages."""
+
+TRUSTED = dict.fromkeys(
+    ("SSL_CERT_FILE", "PIP_CERT", "NODE_EXTRA_CA_CERTS"), f"{CERTIFICATES}/ca-certificates.crt"
+)
+"""Whom Python, pip and Node trust while steps run."""
 
 
 def main() -> None:
@@ -96,8 +107,8 @@ def run(step: Step, root: Path) -> None:
     shutil.copy("/etc/resolv.conf", root / "etc/resolv.conf")
     mounts = [["-t", "proc", "proc", f"{root}/proc"], ["--bind", "/dev", f"{root}/dev"]]
     made = []
-    for path in BINDS:
-        at = root / path.lstrip("/")
+    for path, place in BINDS.items():
+        at = root / place.lstrip("/")
         made += [] if at.exists() else [at]
         at.mkdir(parents=True, exist_ok=True)
         mounts.append(["--bind", "-o", "ro", path, str(at)])
@@ -105,6 +116,7 @@ def run(step: Step, root: Path) -> None:
         subprocess.run(["mount", *mount], check=True)
     environment = {"PATH": os.defpath, "DEBIAN_FRONTEND": "noninteractive", **step.environment}
     environment |= {name: value for name, value in os.environ.items() if name.startswith("PIP_")}
+    environment |= TRUSTED
     environment["PATH"] = step.environment.get(
         "PATH", "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import json
+import re
 import signal
 import socket
 import struct
@@ -22,6 +23,7 @@ from steps import Stage, stages
 URL = "http://127.0.0.1:8000"
 SCRATCH_BYTES = 512 * 1024**2
 WITHIN_SECONDS = 120.0
+PAGES = ("/", "/viewer", "/editor", "/litegraph")
 EXAMPLE = REPOSITORY / "examples" / "id3-clause-2.json"
 
 
@@ -35,6 +37,7 @@ def main() -> None:
     service = start(stage, root, folder / "service.log")
     words = ["tubeloom", "keys", "create", "proof", "--scope", "admin"]
     key = inside(stage, root, words, text=True).stdout.strip()
+    check_pages()
     check_answers(key)
     stored = check_stored(key)
     assert inside(stage, root, stage.healthcheck).returncode == 0, "HEALTHCHECK fails"
@@ -93,6 +96,16 @@ def stop(service: subprocess.Popen[bytes]) -> None:
     """End it as Docker does."""
     service.terminate()
     assert service.wait(10) in {0, -signal.SIGTERM}, service.returncode
+
+
+def check_pages() -> None:
+    """Browsers get the pages, and all that these load, without a key."""
+    for page in PAGES:
+        text = call(None, page).decode()
+        parts = set(re.findall(r"(?:src|href)=\"(/[^\"]+)\"", text))
+        sizes = [len(call(None, part)) for part in parts]
+        assert sizes, f"{page} loads nothing"
+        print(f"{'':10}{page} loads {len(sizes)} files of {sum(sizes):,} bytes")
 
 
 def check_answers(key: str) -> None:
