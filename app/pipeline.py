@@ -108,7 +108,7 @@ def render(
         progress("reading", 0.0)
         recent = recent_layouts.get(data, layout)
         program = recent.program if recent else registry.read(options.source, data, settings)
-        etag = validator(program, replace(options, stretch=None), layout)
+        etag = validator(_form(program, data, layout), replace(options, stretch=None), layout)
         if is_known(etag, known):
             return Unchanged(etag)
         laid = recent or (None if layout is None else read_layout(program, layout))
@@ -216,7 +216,7 @@ def layout_of(
     """The numbers of the document's layout, as JSON."""
     progress("reading", 0.0)
     program = registry.read(options.source, data, settings)
-    etag = validator(program, options, layout)
+    etag = validator(_form(program, data, layout), options, layout)
     if is_known(etag, known):
         return Unchanged(etag)
     laid = None if layout is None else read_layout(program, layout)
@@ -225,7 +225,7 @@ def layout_of(
     verdict = judge(laid)
     progress("writing", 0.6)
     patches = patch_pairs(laid.routing, program.layout.patch_rule) if options.patches else None
-    body = layout_numbers(program, laid.placement, laid.routing, patches, verdict)
+    body = layout_numbers(program, laid.placement, laid.routing, patches, verdict, laid.hues)
     progress("done", 1.0)
     return Answer(body, "application/json", etag, program.name)
 
@@ -240,7 +240,7 @@ def convert(
     """The document in another format."""
     progress("reading", 0.0)
     program = registry.read(options.source, data, settings)
-    etag = validator(program, options)
+    etag = validator(canonical(program), options)
     if is_known(etag, known):
         return Unchanged(etag)
     progress("writing", 0.6)
@@ -249,13 +249,18 @@ def convert(
     return Answer(body, registry.FORMATS[options.target].media_type, etag, program.name)
 
 
-def validator(program: Program, options: object, layout: bytes | None = None) -> str:
-    """A strong validator: digest of the document, of what was asked, and of our version.
+def _form(program: Program, data: bytes, layout: bytes | None) -> bytes:
+    """The program's canonical form; what is stored with a layout is stored in it."""
+    return canonical(program) if layout is None else data
+
+
+def validator(document: bytes, options: object, layout: bytes | None = None) -> str:
+    """A strong validator: digest of the canonical document, of what was asked, and of our version.
 
     A ``layout`` that is given counts too: the same document may be laid out in another way.
     """
     asked = f"{__version__}\n{options!r}\n".encode()
-    return hashlib.sha256(asked + canonical(program) + (layout or b"")).hexdigest()[:32]
+    return hashlib.sha256(asked + document + (layout or b"")).hexdigest()[:32]
 
 
 def _is_crowd(program: Program, options: RenderOptions) -> bool:

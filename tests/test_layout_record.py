@@ -33,7 +33,7 @@ def assert_same(layout: Layout, other: Layout | None) -> None:
                 assert was == now, field.name
 
 
-@settings(deadline=None, max_examples=10)
+@settings(max_examples=10)
 @given(programs())
 def test_a_layout_that_was_written_is_read_as_it_was(program: Program) -> None:
     layout = lay_out(program)

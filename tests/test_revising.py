@@ -276,7 +276,7 @@ def assert_kept(before: Revision, after: Revision) -> None:
     )
 
 
-@settings(deadline=None, max_examples=SEQUENCES)
+@settings(max_examples=SEQUENCES)
 @given(st.data())
 def test_whatever_an_edit_does_not_concern_keeps_still(data: st.DataObject) -> None:
     revision = Revision.first(data.draw(programs()))
@@ -291,7 +291,7 @@ def test_whatever_an_edit_does_not_concern_keeps_still(data: st.DataObject) -> N
         revision = after
 
 
-@settings(deadline=None, max_examples=2 * SEQUENCES)
+@settings(max_examples=2 * SEQUENCES)
 @given(sequences(placed=False))
 def test_after_edits_everything_stands_in_order(made: tuple[Program, tuple[Json, ...]]) -> None:
     program, done = made
@@ -470,7 +470,7 @@ def nodes(body: bytes) -> dict[str, Any]:
     return found
 
 
-@settings(deadline=None, max_examples=SEQUENCES // 3)
+@settings(max_examples=SEQUENCES // 3)
 @given(sequences(most=3))
 def test_a_scene_of_what_changed_makes_the_old_scene_the_new_one(
     made: tuple[Program, tuple[Json, ...]],

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
-from app.hyperedges.clearance.obstacles import Obstacles, attached_items, obstacles_of
+from app.grouped import rows_of, starts_of
+from app.hyperedges.clearance.obstacles import (
+    Obstacles,
+    attached_items,
+    near_obstacles,
+    obstacle_gaps,
+    obstacles_of,
+)
 from app.hyperedges.join_planes import choose_join_planes
 from app.hyperedges.joining import merge, select
 from app.hyperedges.routing import Routing
-from app.hyperedges.rows import rows_of, starts_of
-from app.hyperedges.weaving.faults import find_faults
+from app.hyperedges.weaving.faults import TOLERANCE
 from app.hyperedges.weaving.loose import lay_loosely
 from app.hyperedges.weaving.numbering import number
 from app.hyperedges.weaving.plan import feet_of
@@ -59,12 +65,14 @@ def weave_all(
     ``previous`` layout keep their curves to the last bit unless their attachments moved, or they
     are in the way of what is new.
     """
-    surroundings = Surroundings(obstacles_of(placement), attached_items(placement))
+    surroundings = Surroundings.of(obstacles_of(placement), attached_items(placement))
     kept = np.zeros(len(placement.radii), dtype=np.bool_)
     if previous is not None:
         kept = unmoved(placement, join_heights, previous)
-        new = Surroundings(_new(surroundings.obstacles, previous.placement), surroundings.attached)
-        kept &= ~_too_near(kept, placement, previous, new, clearance)
+        new = _new(surroundings.obstacles, previous.placement)
+        kept &= ~_too_near(kept, placement, previous, new, surroundings.attached, clearance)
+        if kept.all():
+            return select(previous.routing, previous.numbers)
     best: tuple[Weave, Floats, NDArray[np.bool_]] | None = None
     for attempt in range(HITS + 1):
         if attempt == HITS:
@@ -109,7 +117,7 @@ def _weave_beside(
     attached = surroundings.attached.copy()
     attached[:, 0] = renumbered[attached[:, 0]]
     attached = attached[np.lexsort((attached[:, 1], attached[:, 0]))]
-    around = Surroundings(surroundings.obstacles, attached)
+    around = replace(surroundings, attached=attached)
     return weave(threads, still, around, clearance, progress), threads.radii
 
 
@@ -241,26 +249,22 @@ def _too_near(
     kept: NDArray[np.bool_],
     placement: Placement,
     previous: Previous,
-    surroundings: Surroundings,
+    new: Obstacles,
+    attached: Indices,
     clearance: float,
 ) -> NDArray[np.bool_]:
-    """Which of the hyperedges that are kept are too near to new items, (h,).
+    """Which of the hyperedges that are kept are too near to ``new`` items, (h,).
 
     Those that are too near to each other were so before, when nothing better was found.
     """
     found = np.zeros(len(kept), dtype=np.bool_)
     standing = np.flatnonzero(kept)
     old = _standing(previous, standing)
-    if old is None:
+    if old is None or len(new.items) == 0:
         return found
     owners = np.repeat(standing, np.diff(old.segment_starts))
-    faults = find_faults(
-        old.control_points,
-        owners,
-        placement.radii[owners],
-        clearance,
-        surroundings,
-        np.ones(len(owners), dtype=np.bool_),
-    )
-    found[owners[faults.at_items]] = True
+    radii = placement.radii[owners]
+    near = near_obstacles(old.control_points, owners, radii, new, attached, clearance)
+    gaps = obstacle_gaps(old.control_points, radii, new, near, clearance, TOLERANCE)
+    found[owners[near[gaps.lower < clearance, 0]]] = True
     return found

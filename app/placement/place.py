@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from app.arrays import Floats, Indices
 from app.notations.notation import Notation
+from app.placement.attaching import attached
 from app.placement.contents import measure
 from app.placement.family import Family, family
 from app.placement.labels import label_place
 from app.placement.placement import LabelPlace, Placement
-from app.placement.points import points_of
 from app.placement.rooms import TOUCHING
 from app.placement.sized import Place, Sized
 from app.placement.standing import Standing
 from app.placement.turning import UNTURNED, Quaternion, Vector, moved, reach, then, turned
+from app.placement.untouched import untouched
 from app.program.model import Program
 from app.solids.extents import middle_of
 from app.solids.solid import Tray
@@ -30,28 +31,36 @@ def place(program: Program, notation: Notation, standing: Standing | None = None
     the edit concerns: new and changed items, and what holds them, which grows around them. What
     would have to grow over others moves to a free place, with all that is in it.
     """
+    rest = None if standing is None else untouched(program, standing)
+    if rest is None:
+        placed = _placed(program, notation, standing)
+    else:
+        placed = rest.beside(_placed(rest.others, notation, standing))
+    radii = [
+        hyperedge.radius or notation.hyperedge_style(hyperedge.kind).radius
+        for hyperedge in program.hyperedges
+    ]
+    return replace(attached(program, placed, rest), radii=np.array(radii, dtype=np.float64))
+
+
+def _placed(program: Program, notation: Notation, standing: Standing | None) -> Placement:
+    """The items alone, without attachments."""
     relations = family(program)
     styles = [notation.item_style(item.kind) for item in program.items]
     sized, roots = measure(program, relations, styles, standing)
     centers, turns, offsets = _in_world(sized, relations, roots)
-    positions, directions, starts, owners = _attachments(program, sized, centers, turns)
+    nothing = np.empty((0, 3))
     return Placement(
         centers=np.array(centers, dtype=np.float64).reshape(-1, 3),
         rotations=np.array(turns, dtype=np.float64).reshape(-1, 4),
         sizes=np.array([each.size for each in sized], dtype=np.float64).reshape(-1, 3),
         solids=tuple(each.solid for each in sized),
         labels=tuple(_label(each) for each in sized),
-        attachment_positions=positions,
-        attachment_directions=directions,
-        attachment_starts=starts,
-        attachment_items=owners,
-        radii=np.array(
-            [
-                hyperedge.radius or notation.hyperedge_style(hyperedge.kind).radius
-                for hyperedge in program.hyperedges
-            ],
-            dtype=np.float64,
-        ),
+        attachment_positions=nothing,
+        attachment_directions=nothing,
+        attachment_starts=np.zeros(1, dtype=np.int64),
+        attachment_items=np.empty(0, dtype=np.int64),
+        radii=np.empty(0),
         offsets=np.array(offsets, dtype=np.float64).reshape(-1, 3),
         turns=np.array([each.turn for each in sized], dtype=np.float64).reshape(-1, 4),
     )
@@ -135,46 +144,4 @@ def _label(each: Sized) -> LabelPlace | None:
         each.size,
         each.style.padding,
         side=each.style.caption == "left",
-    )
-
-
-def _attachments(
-    program: Program,
-    sized: Sequence[Sized],
-    centers: Sequence[Vector],
-    turns: Sequence[Quaternion],
-) -> tuple[Floats, Floats, Indices, Indices]:
-    """Positions (a, 3), directions (a, 3), where each hyperedge's start (h + 1,), and items (a,).
-
-    Many hyperedges may end at one attachment point: its place is found once.
-    """
-    ends = [
-        (attachment.item, attachment.point)
-        for hyperedge in program.hyperedges
-        for attachment in hyperedge.attachments
-    ]
-    known: dict[tuple[str, str | None], int] = {}
-    used = np.array([known.setdefault(end, len(known)) for end in ends], dtype=np.int64)
-    numbers = {item.id: number for number, item in enumerate(program.items)}
-    points: dict[int, dict[str | None, tuple[Vector, Vector]]] = {}
-    positions: list[Vector] = []
-    directions: list[Vector] = []
-    owners: list[int] = []
-    for name, point in known:
-        number = numbers[name]
-        each = sized[number]
-        if number not in points:
-            points[number] = points_of(each.item, each.solid, each.size)
-        position, direction = points[number][point]
-        x, y, z = turned(turns[number], position)
-        a, b, c = centers[number]
-        positions.append((a + x, b + y, c + z))
-        directions.append(turned(turns[number], direction))
-        owners.append(number)
-    counts = [len(hyperedge.attachments) for hyperedge in program.hyperedges]
-    return (
-        np.array(positions, dtype=np.float64).reshape(-1, 3)[used],
-        np.array(directions, dtype=np.float64).reshape(-1, 3)[used],
-        np.concatenate([[0], np.cumsum(counts, dtype=np.int64)]),
-        np.array(owners, dtype=np.int64)[used],
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from app.arrays import Floats
 from app.placement.family import Family
@@ -23,7 +23,8 @@ class Standing:
     """The n items of an earlier state of a program, and where they stood.
 
     ``centers`` (n, 3) and ``rotations`` (n, 4) are in the world, ``offsets`` (n, 3) and ``turns``
-    (n, 4) within the parent, ``sizes`` (n, 3) in the items' own axes; as in `Placement`.
+    (n, 4) within the parent, ``sizes`` (n, 3) in the items' own axes; as in `Placement`. ``whole``
+    is all that was placed, where it is at hand, and not flattened.
     """
 
     program: Program
@@ -32,6 +33,7 @@ class Standing:
     sizes: Floats
     offsets: Floats
     turns: Floats
+    whole: Placement | None = field(default=None, kw_only=True)
 
     @classmethod
     def of(cls, program: Program, placement: Placement) -> Standing:
@@ -43,6 +45,7 @@ class Standing:
             placement.sizes,
             placement.offsets,
             placement.turns,
+            whole=None if program.layout.dimensions == 2 else placement,
         )
 
 
@@ -58,9 +61,17 @@ def recall(sized: Sequence[Sized], program: Program, family: Family, standing: S
     numbers = {item.id: number for number, item in enumerate(before.items)}
     parents = {item.parent for item in before.items}
     lines, lines_before = _lines(program), _lines(before)
-    offsets, centers = standing.offsets.tolist(), standing.centers.tolist()
-    turns, rotations = standing.turns.tolist(), standing.rotations.tolist()
-    sizes = standing.sizes.tolist()
+    wanted = [numbers[each.item.id] for each in sized if each.item.id in numbers]
+    offsets, centers, turns, rotations, sizes = (
+        dict(zip(wanted, array[wanted].tolist(), strict=True))
+        for array in (
+            standing.offsets,
+            standing.centers,
+            standing.turns,
+            standing.rotations,
+            standing.sizes,
+        )
+    )
     for number in family.order:
         each = sized[number]
         item = each.item

@@ -27,7 +27,7 @@ def count(program: Program) -> Count:
         items=len(program.items),
         hyperedges=len(program.hyperedges),
         attachments=sum(len(hyperedge.attachments) for hyperedge in program.hyperedges),
-        label_characters=sum(len(item.label or "") for item in program.items),
+        label_characters=sum(len(item.label) for item in program.items if item.label),
     )
 
 

@@ -98,6 +98,6 @@ def stored(service: Service) -> None:
 
 
 @schema.exclude(path_regex="/events$").parametrize()  # those streams do not end
-@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=25, suppress_health_check=list(HealthCheck))
 def test_the_service_does_what_it_says(case: schemathesis.Case[Any], service: Service) -> None:
     case.call_and_validate(base_url=service.url)

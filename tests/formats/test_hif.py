@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from jsonschema import Draft7Validator
 
@@ -260,7 +260,6 @@ hypergraphs = st.fixed_dictionaries(
 )
 
 
-@settings(deadline=None)
 @given(hypergraphs)
 def test_every_hypergraph_is_read_and_written_without_loss(document: Any) -> None:
     program = read(json.dumps(document).encode(), Settings())

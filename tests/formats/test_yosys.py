@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.errors import DocumentError, DocumentTooLarge, InvalidDocument
@@ -193,7 +193,6 @@ def test_any_json_value_is_a_netlist_or_a_document_error(value: Any, section: st
         netlist(m={section: {"n": value}, "cells": {"c": {"type": "t", "connections": {}}}})
 
 
-@settings(deadline=None)
 @given(modules)
 def test_every_pin_of_a_net_that_joins_is_an_attachment_once(module: dict[str, Any]) -> None:
     widths = [port["bits"] for port in module["ports"].values()]

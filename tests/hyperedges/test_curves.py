@@ -122,7 +122,7 @@ def test_the_three_segments_of_a_join_share_its_tangent(
 
 
 @given(st.lists(st.integers(2, 60), max_size=6), st.sampled_from(READINGS))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_segments_number_twice_the_joins_and_one(arities: list[int], reading: Reading) -> None:
     starts = np.concatenate([[0], np.cumsum(arities, dtype=np.int64)]).astype(np.int64)
     points = np.random.default_rng(0).uniform(-5, 5, (int(starts[-1]), 3))
@@ -185,7 +185,7 @@ def test_tree_and_direct_search_agree_to_the_last_bit(
 
 
 @given(arrays(np.float64, st.tuples(st.integers(41, 70), st.just(3)), elements=st.integers(-2, 2)))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_tree_and_direct_search_agree_among_ties(points: Floats) -> None:
     tree, direct = lay_out_one(points), lay_out_one(points, search="direct")
     assert tree.ends.tolist() == direct.ends.tolist()

@@ -38,7 +38,7 @@ def boxes(scene: Placement) -> tuple[Floats, Floats]:
 
 @pytest.mark.parametrize("reach", [0.5, 3.0, 10.0])
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_overlapping_footprints_lie_a_tube_and_a_gap_apart(reach: float, seed: int) -> None:
     scene = scattered(40, 10.0, reach, seed)
     planes = choose(scene)

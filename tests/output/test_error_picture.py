@@ -71,7 +71,7 @@ def test_a_fault_too_long_for_the_picture_is_cut_with_an_ellipsis() -> None:
     assert told[-1].endswith("…")
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(st.text(max_size=60), st.lists(st.text(max_size=120), max_size=4))
 def test_any_text_makes_a_picture(title: str, lines: list[str]) -> None:
     ET.fromstring(error_picture(title, lines, 240, 160, as_svg=True))

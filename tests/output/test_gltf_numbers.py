@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from meshopt import decode_gltf_buffer, encode_gltf_buffer
@@ -56,7 +56,6 @@ def test_the_rows_of_rounded_positions_are_read_as_these(mesh: Singles, step: fl
     assert np.array_equal(read.view(np.float32).reshape(-1, 3), kept)
 
 
-@settings(deadline=None)  # the first call compiles
 @given(meshes, st.floats(1e-3, 1e3))
 def test_numbered_positions_are_off_by_less_than_a_fiftieth_of_the_radius(
     mesh: Singles, radius: float

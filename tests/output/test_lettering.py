@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image, ImageDraw
 
@@ -11,7 +11,6 @@ from app.output.lettering import Type, clean, write
 WORDS = "Items that a hyperedge joins, /items/3/attachment_points/0/direction: straight up."
 
 
-@settings(deadline=None)
 @given(st.text(max_size=120), st.floats(20, 300))
 def test_wrapped_lines_have_room_and_lose_nothing(text: str, room: float) -> None:
     how, line = Type(12), clean(text, 200)
@@ -25,7 +24,6 @@ def test_words_are_kept_whole_where_they_can_be() -> None:
         assert line[-1] in ",:/_" or f"{line} " in WORDS
 
 
-@settings(deadline=None)
 @given(st.text(max_size=80), st.floats(0, 200))
 def test_what_is_fitted_fits(text: str, room: float) -> None:
     how = Type(14, weight=600)

@@ -15,7 +15,7 @@ from app.output.clearance_numbers import Verdict
 from app.output.numbers import layout_numbers
 from app.placement.placement import Placement
 from app.program.model import Program
-from tests.scene.hand_built import placed, program_of, three_items
+from tests.scene.hand_built import material_of, placed, program_of, scene_of, three_items
 
 CHANCE = np.random.default_rng(5)
 
@@ -86,6 +86,12 @@ def test_attachments_name_their_item_and_point() -> None:
         {"item": "x", "point": "top", "position": [0, 0, 0.5], "direction": [0, 0, 1]},
         {"item": "y", "point": None, "position": [2, 0, 0.5], "direction": [0, 0, 1]},
     ]
+
+
+def test_hyperedges_say_which_colour_they_are_drawn_in() -> None:
+    program = three_items()
+    named = material_of(scene_of(program), "f")
+    assert numbers(program)["hyperedges"][1]["color"] == named.removeprefix("plastic ")
 
 
 def test_segments_say_what_they_join_in_the_order_of_curves() -> None:

@@ -26,7 +26,7 @@ def place_of(picture: NDArray[np.int64], color: tuple[int, int, int]) -> tuple[i
     return columns.min(), rows.min(), columns.max() + 1, rows.max() + 1
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(
     st.integers(300, 1600), st.integers(300, 1200), st.integers(1, 5), st.integers(1, 5),
     st.booleans(), st.booleans(),

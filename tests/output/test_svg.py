@@ -226,7 +226,7 @@ def test_nearly_nothing_can_be_drawn(data: bytes) -> None:
     assert len(groups(drawn(data)[1])) == len(json.loads(data)["items"])
 
 
-@wishes(deadline=None, max_examples=25, suppress_health_check=[HealthCheck.too_slow])
+@wishes(max_examples=25, suppress_health_check=[HealthCheck.too_slow])
 @given(documents())
 def test_any_document_can_be_drawn(program: dict[str, Any]) -> None:
     try:
@@ -251,7 +251,7 @@ nasty = st.text(min_size=1, max_size=30) | st.sampled_from(
 )
 
 
-@wishes(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+@wishes(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(nasty, min_size=2, max_size=4, unique=True), nasty, nasty)
 def test_no_text_of_a_document_gets_out_of_its_place(ids: list[str], label: str, kind: str) -> None:
     def is_sound(text: str) -> bool:

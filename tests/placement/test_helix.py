@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.errors import InconsistentDocument
@@ -35,7 +35,6 @@ def on_helix(count: int, item: dict[str, Any] | None = None, **more: Any) -> dic
 bulks = st.lists(st.builds(Bulk, st.floats(0.1, 3.0), st.floats(0.1, 3.0)), min_size=2, max_size=30)
 
 
-@settings(deadline=None)
 @given(
     bulks,
     st.floats(0.0, 1.0),

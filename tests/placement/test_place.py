@@ -97,7 +97,7 @@ trees = st.integers(1, 25).flatmap(
 )
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(trees, st.sampled_from(["plain", "sparcl"]))
 def test_siblings_do_not_overlap_and_lie_within_their_tray(
     tree: tuple[tuple[int, ...], list[str], list[str]], notation: str
@@ -166,7 +166,7 @@ def test_labels_lie_on_their_items() -> None:
             assert abs(y) + tall / 2 <= size[1] / 2
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(
     st.lists(
         st.tuples(

@@ -1,4 +1,4 @@
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.placement import rows
@@ -7,7 +7,6 @@ from app.placement.rows import FEW, arrange
 sizes = st.lists(st.tuples(st.floats(0.1, 5), st.floats(0.1, 5)), min_size=1, max_size=60)
 
 
-@settings(deadline=None)
 @given(sizes, st.floats(0.01, 1), st.sampled_from(["row", "column", "rows"]))
 def test_rectangles_are_a_gap_apart_and_within_the_whole(
     rectangles: list[tuple[float, float]], gap: float, arrangement: str

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.arrays import Floats
@@ -215,7 +215,6 @@ rectangles = st.lists(
 sizes = st.tuples(st.floats(0.1, 5), st.floats(0.1, 5))
 
 
-@settings(deadline=None)
 @given(rectangles, sizes, st.floats(0.01, 1), st.sampled_from(("row", "column", "rows")))
 def test_a_place_beside_others_is_free(
     taken: Floats, size: tuple[float, float], gap: float, arrangement: Any
@@ -224,7 +223,6 @@ def test_a_place_beside_others_is_free(
     assert not overlaps(around((x, y), size), taken, gap)
 
 
-@settings(deadline=None)
 @given(rectangles, sizes, st.floats(0.01, 1), st.integers(0, 3))
 def test_a_place_is_within_the_room_that_there_is(
     taken: Floats, size: tuple[float, float], gap: float, side: int
@@ -239,7 +237,6 @@ def test_a_place_is_within_the_room_that_there_is(
     assert (made[2:] <= room[2:] + 1e-6).all()
 
 
-@settings(deadline=None)
 @given(rectangles, sizes, st.tuples(st.floats(-9, 9), st.floats(-9, 9)))
 def test_a_place_near_another_one_is_not_far_away(
     taken: Floats, size: tuple[float, float], near: tuple[float, float]

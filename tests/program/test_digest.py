@@ -1,7 +1,7 @@
 import json
 from typing import Any
 
-from hypothesis import given, settings
+from hypothesis import given
 
 from app.program.digest import canonical, digest
 from app.program.model import Program
@@ -57,7 +57,6 @@ def test_free_data_that_goes_out_differently_is_told_apart() -> None:
     assert digest(program(items=[], data={"x": 1})) != digest(program(items=[], data={"x": 1.0}))
 
 
-@settings(deadline=None)
 @given(documents())
 def test_the_canonical_form_is_a_document_of_the_same_program(document: dict[str, Any]) -> None:
     made = program(**document)
@@ -66,7 +65,6 @@ def test_the_canonical_form_is_a_document_of_the_same_program(document: dict[str
     assert canonical(again) == canonical(made)
 
 
-@settings(deadline=None)
 @given(documents())
 def test_documents_that_mean_the_same_have_one_digest(document: dict[str, Any]) -> None:
     made = program(**document)

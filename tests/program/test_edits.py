@@ -425,7 +425,7 @@ def test_limits_hold_after_edits_too() -> None:
         apply_edits(PROGRAM, deeper, few)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(sequences(most=8))
 def test_after_any_edits_a_program_is_right(made: tuple[Program, tuple[Json, ...]]) -> None:
     program, done = made

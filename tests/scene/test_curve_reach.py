@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -34,7 +34,6 @@ def alone(control_points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> 
     )
 
 
-@settings(deadline=None)  # the first call compiles
 @given(curves, directions)
 def test_no_sample_reaches_farther_and_one_reaches_as_far(
     control_points: np.ndarray[tuple[int, ...], np.dtype[np.float64]],
@@ -49,7 +48,6 @@ def test_no_sample_reaches_farther_and_one_reaches_as_far(
     assert sampled - 1e-9 <= reached <= sampled + 1e-3 * length
 
 
-@settings(deadline=None)
 @given(curves)
 def test_boxes_hold_all_vertices(
     control_points: np.ndarray[tuple[int, ...], np.dtype[np.float64]],

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.arrays import Floats
@@ -51,7 +51,6 @@ def test_what_is_near_lies_farther_left_for_the_right_eye(projection: str) -> No
     assert (np.diff(nearest_first) > -1e-9).all()
 
 
-@settings(deadline=None)
 @given(
     st.sampled_from(["perspective", "orthographic"]),
     st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(0.1, 1)),

@@ -37,7 +37,7 @@ def headings(cameras: tuple[Camera, ...]) -> list[float]:
     return turns
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(VIEWS, st.floats(0.4, 3))
 def test_a_turntable_never_cuts_anything_off(view: dict[str, Any], aspect: float) -> None:
     scene = scene_seen(aspect, **view)
@@ -81,7 +81,7 @@ def test_an_empty_scene_moves_too(motion: str, projection: str) -> None:
         assert 0 < camera.near < camera.far
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(VIEWS)
 def test_a_flight_never_enters_the_scene_nor_cuts_off_what_is_near(view: dict[str, Any]) -> None:
     scene = scene_seen(**view)

@@ -46,7 +46,7 @@ def world_vertices(nodes: list[Node]) -> Floats:
     )
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.integers(0, 10_000), st.integers(1, 12))
 def test_no_vertex_lies_farther_and_the_answer_is_a_vertex(seed: int, count: int) -> None:
     nodes, boxes = random_nodes(seed, count)

@@ -51,7 +51,7 @@ def test_refined_solids_are_the_same_closed_surface(solid: Solid, axes: tuple[in
     assert there == {(b, a) for a, b in there}, "every edge has a neighbour: nothing gapes"
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(st.integers(0, 10**6), st.floats(0.05, 2))
 def test_any_triangles_keep_their_area_and_their_sides(seed: int, longest: float) -> None:
     generator = np.random.default_rng(seed)

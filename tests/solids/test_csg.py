@@ -59,7 +59,7 @@ def volume(tree: Tree) -> float:
     return 0.0 if found is None else float(welded(found.mesh).volume)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(trees(8))
 def test_any_tree_is_closed_and_sound(tree: Tree) -> None:
     found = body(tree)
@@ -69,7 +69,7 @@ def test_any_tree_is_closed_and_sound(tree: Tree) -> None:
     assert_closed(found.mesh)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(trees(5), st.integers(0, 2**32 - 1))
 def test_what_is_inside_is_what_the_tree_says(tree: Tree, seed: int) -> None:
     found = body(tree)
@@ -81,7 +81,7 @@ def test_what_is_inside_is_what_the_tree_says(tree: Tree, seed: int) -> None:
         assert inside == (found is not None and encloses(found.mesh, own))
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(trees(4), trees(4))
 def test_volumes_of_unions_and_differences_add_up(one: Tree, other: Tree) -> None:
     both = volume(intersection(one, other))

@@ -4,7 +4,7 @@ import time
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.solids.fonts import typefaces
@@ -34,7 +34,6 @@ def test_a_descender_reaches_below_the_baseline() -> None:
     assert extent("p", 1.0).bottom < -0.2
 
 
-@settings(deadline=None)
 @given(st.text(max_size=20), heights)
 def test_extent_grows_in_proportion_to_height(text: str, height: float) -> None:
     one, other = extent(text, 1.0), extent(text, height)
@@ -108,7 +107,6 @@ def test_half_a_surrogate_pair_is_shown_as_replaced() -> None:
     assert shown("\ud83d") == "\N{REPLACEMENT CHARACTER}"
 
 
-@settings(deadline=None)
 @given(st.text(st.characters(), max_size=40))
 def test_any_string_can_be_set(text: str) -> None:
     line = lettering(text)

@@ -4,7 +4,7 @@ from math import pi, radians
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from app.solids.extents import size_of
@@ -36,7 +36,6 @@ ORDINARY: list[Solid] = [
 ]
 
 
-@settings(deadline=None)
 @given(solids)
 def test_a_solid_of_any_size_is_closed_and_sound(solid: Solid) -> None:
     # Single precision cannot tell a tray's floor from its underside at a millionth of its height.
@@ -46,7 +45,6 @@ def test_a_solid_of_any_size_is_closed_and_sound(solid: Solid) -> None:
     assert_closed(mesh)
 
 
-@settings(deadline=None)
 @given(solids)
 def test_a_solid_fills_its_size_around_the_origin(solid: Solid) -> None:
     half = np.array(size_of(solid)) / 2
@@ -58,13 +56,11 @@ def test_normals_follow_the_surface_up_to_a_crease(solid: Solid) -> None:
     assert largest_deviation(mesh_of(solid)) < radians(35)
 
 
-@settings(deadline=None)
 @given(solids)
 def test_no_normal_points_into_its_solid(solid: Solid) -> None:
     assert largest_deviation(mesh_of(solid)) < radians(60)
 
 
-@settings(deadline=None)
 @given(st.tuples(*[st.floats(0.1, 50.0)] * 3), st.floats(0.0, 0.4))
 def test_a_rounded_box_has_the_volume_of_a_box_swept_by_a_ball(
     size: tuple[float, float, float], share: float

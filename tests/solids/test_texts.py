@@ -4,7 +4,7 @@ from math import radians
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from app.solids.extents import size_of
@@ -29,7 +29,6 @@ def test_walls_shade_smoothly_round_curves_and_break_at_corners(word: str) -> No
     assert largest_deviation(mesh_of(Text(word, 1.0, 0.2))) < radians(40)
 
 
-@settings(deadline=None)
 @given(st.text("AVgλЖ∀→ é8", min_size=1, max_size=12), st.floats(1e-3, 1e5), st.floats(1e-3, 1e5))
 def test_the_box_of_the_letters_is_centred_and_as_large_as_told(
     word: str, height: float, depth: float

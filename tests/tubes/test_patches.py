@@ -165,7 +165,7 @@ def test_a_straight_patch_tube_has_the_ends_and_normals_of_a_swept_one(rule: Rul
 
 
 @rules
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(points=st.lists(any_point, min_size=2, max_size=5))
 def test_whatever_the_attachments_there_are_finite_patches_and_unit_normals(
     rule: Rule, points: list[tuple[float, float, float]]

@@ -146,7 +146,7 @@ def test_facets_keep_to_the_tolerance_and_a_finer_one_is_never_worse(seed: int) 
         before = error
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.lists(any_curve, min_size=1, max_size=3))
 def test_whatever_the_control_points_there_is_a_tube_with_unit_normals(
     curves: list[list[tuple[float, float, float]]],
@@ -159,7 +159,7 @@ def test_whatever_the_control_points_there_is_a_tube_with_unit_normals(
         assert boundary_edges(tubes.mesh(k)) == 0 or np.abs(routing.control_points[k]).max() > 10
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.lists(any_point, min_size=3, max_size=6), any_point)
 def test_whatever_the_join_there_is_a_tube_with_unit_normals(
     points: list[tuple[float, float, float]], tangent: tuple[float, float, float]

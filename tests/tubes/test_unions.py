@@ -85,7 +85,7 @@ def hyperedges(draw: st.DrawFn) -> Routing:
     return route(scene, curves=curves, fidelity=fidelity, clearance=None)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(hyperedges())
 def test_any_hyperedge_is_one_body(routing: Routing) -> None:
     assert_one_body(united(routing).mesh(0))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.tubes.sweep import sweep
@@ -16,7 +16,6 @@ ROUTING = routing_of([CHANCE.uniform(0, 5, (count, 3)) for count in (2, 5, 3, 4,
 TOLERANCES = np.array([0.002, 0.004, 0.05, 0.01, 0.03])
 
 
-@settings(deadline=None)  # the first call compiles
 @given(st.lists(st.integers(0, 4), min_size=1, max_size=6))
 def test_any_part_is_equal_to_the_bit(members: list[int]) -> None:
     whole = sweep(ROUTING, TOLERANCES)

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import operator
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
+from app.grouped import rows_of, starts_of
 from app.hyperedges.clearance.box_tree import in_parts, meeting, plant
 from app.hyperedges.clearance.distance import search_box
 from app.hyperedges.clearance.few_boxes import FEW, meeting_with
-from app.hyperedges.clearance.hulls import Boxes, hull
+from app.hyperedges.clearance.hulls import hull
 from app.hyperedges.clearance.pairs import FINEST, ROUNDING, Gaps, bezier, boxes
 from app.hyperedges.clearance.search import workspace
-from app.placement.placement import Placement
+from app.placement.placement import LabelPlace, Placement
 from app.placement.turning import matrices
+from app.solids.solid import Size, Solid
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,35 +55,68 @@ def obstacles_of(placement: Placement) -> Obstacles:
 
     A box and letters are their box; a ball is exact; a cylinder is the octagon around it, a cone
     four such slices. A tray is its floor and its walls: what stands in it is not in the obstacle.
+    Whoever asks for the obstacles of the same arrays again gets the same.
     """
-    parts: list[Boxes] = []
+    return _obstacles(
+        _Bodies(
+            placement.centers,
+            placement.rotations,
+            placement.sizes,
+            placement.solids,
+            placement.labels,
+        )
+    )
+
+
+class _Bodies(NamedTuple):
+    """What is in the way of a placement; only the very same arrays are equal."""
+
+    centers: Floats
+    rotations: Floats
+    sizes: Floats
+    solids: tuple[Solid, ...]
+    labels: tuple[LabelPlace | None, ...]
+
+    def __hash__(self) -> int:
+        return hash(tuple(map(id, self)))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Bodies) and all(map(operator.is_, self, other))
+
+
+@lru_cache(maxsize=4)
+def _obstacles(bodies: _Bodies) -> Obstacles:
+    kinds: dict[tuple[Solid, Size], int] = {}
+    chosen: list[int] = []
     items: list[int] = []
     placed: list[tuple[tuple[float, ...], tuple[float, ...]]] = []
-    sizes = placement.sizes.tolist()
-    for number, solid in enumerate(placement.solids):
-        width, depth, rise = sizes[number]
-        if width > 0.0 or depth > 0.0 or rise > 0.0:
-            parts.append(hull(solid, (width, depth, rise)))
+    for number, (solid, size, label) in enumerate(
+        zip(bodies.solids, map(tuple, bodies.sizes.tolist()), bodies.labels, strict=True)
+    ):
+        if any(length > 0.0 for length in size):
+            chosen.append(kinds.setdefault((solid, size), len(kinds)))
             placed.append(_HERE)
             items.append(number)
-        label = placement.labels[number]
         if label is not None:
-            parts.append(hull(label.text, label.size))
+            chosen.append(kinds.setdefault((label.text, label.size), len(kinds)))
             placed.append((label.position, label.rotation))
             items.append(number)
-    if not parts:
+    if not kinds:
         nothing = np.zeros((0, 3))
         return Obstacles(
             nothing, np.zeros((0, 3, 3)), nothing, np.zeros(0), np.zeros(0, dtype=np.int64)
         )
-    counts = [len(part.centers) for part in parts]
-    owners = np.repeat(np.array(items), counts)
+    hulls = [hull(solid, size) for solid, size in kinds]
+    starts = starts_of(np.array([len(one.centers) for one in hulls]))
+    rows = rows_of(starts, np.array(chosen))
     centers, turns, halves, roundings = (
-        np.concatenate(arrays) for arrays in zip(*parts, strict=True)
+        np.concatenate(arrays)[rows] for arrays in zip(*hulls, strict=True)
     )
+    counts = np.diff(starts)[chosen]
+    owners = np.repeat(np.array(items), counts)
     for positions, rotations in (
         _repeated(placed, counts),
-        (placement.centers[owners], placement.rotations[owners]),
+        (bodies.centers[owners], bodies.rotations[owners]),
     ):
         frames = matrices(rotations)
         centers = positions + np.einsum("kij,kj->ki", frames, centers)
@@ -90,7 +128,7 @@ _HERE = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
 
 
 def _repeated(
-    placed: list[tuple[tuple[float, ...], tuple[float, ...]]], counts: list[int]
+    placed: list[tuple[tuple[float, ...], tuple[float, ...]]], counts: Indices
 ) -> tuple[Floats, Floats]:
     positions = np.array([position for position, _ in placed])
     rotations = np.array([rotation for _, rotation in placed])
@@ -119,8 +157,8 @@ def near_obstacles(
 
     ``control_points`` (s, 4, 3), ``owners`` and ``radii`` (s,) of the segments, as for
     `app.hyperedges.clearance.pairs.near_pairs`. No hyperedge is paired with an item that
-    ``attached`` (k, 2) names it with, nor with that item's label. With ``active`` (s,) those
-    segments alone. Sorted.
+    ``attached`` (k, 2), sorted, names it with, nor with that item's label. With ``active`` (s,)
+    those segments alone. Sorted.
     """
     if len(control_points) == 0 or len(obstacles.items) == 0:
         return np.zeros((0, 2), dtype=np.int64)
@@ -138,7 +176,9 @@ def near_obstacles(
         found = meeting(plant(theirs), ours, asking, (owners, strangers))
     count = int(max(obstacles.items.max(), attached[:, 1].max(initial=0))) + 1
     keys = owners[found[:, 0]] * count + obstacles.items[found[:, 1]]
-    return found[~np.isin(keys, attached[:, 0] * count + attached[:, 1])]
+    of_attached = np.append(attached[:, 0] * count + attached[:, 1], np.iinfo(np.int64).max)
+    strange = of_attached[np.searchsorted(of_attached, keys)] != keys
+    return np.asarray(found[strange])
 
 
 def obstacle_gaps(

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from app.arrays import Floats, Indices
+from app.grouped import rows_from, starts_of
 from app.hyperedges.routing import Routing
-from app.hyperedges.rows import rows_from, starts_of
 from app.hyperedges.weaving.fabric import Fabric
 from app.hyperedges.weaving.plan import Plan
 

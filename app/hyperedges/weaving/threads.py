@@ -47,8 +47,7 @@ class Still:
 
     def near(self, low: Floats, high: Floats) -> Indices:
         """Numbers of the segments whose control points' box meets the one from low to high."""
-        meets = (self.boxes[:, 0] <= high) & (self.boxes[:, 1] >= low)
-        return np.flatnonzero(meets.all(axis=1))
+        return _meeting(self.boxes, low, high)
 
     @staticmethod
     def nothing() -> Still:
@@ -67,15 +66,29 @@ class Still:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Surroundings:
-    """Items to keep clear of: their boxes, and which hyperedge attaches to which item (k, 2)."""
+    """Items to keep clear of, and which hyperedge attaches to which item: (k, 2), sorted.
+
+    ``boxes`` (m, 2, 3) along the axes hold the obstacles: smallest coordinates and largest.
+    """
 
     obstacles: Obstacles
     attached: Indices
+    boxes: Floats
+
+    @classmethod
+    def of(cls, obstacles: Obstacles, attached: Indices) -> Surroundings:
+        """With the boxes around balls that hold the obstacles."""
+        reach = (np.linalg.norm(obstacles.halves, axis=1) + obstacles.roundings)[:, None]
+        boxes = np.stack([obstacles.centers - reach, obstacles.centers + reach], axis=1)
+        return cls(obstacles, attached, boxes)
 
     def near(self, low: Floats, high: Floats) -> Surroundings:
-        """Only the boxes that may come into the one from low to high."""
-        boxes = self.obstacles
-        reach = np.linalg.norm(boxes.halves, axis=1) + boxes.roundings
-        meets = (boxes.centers - reach[:, None] <= high) & (boxes.centers + reach[:, None] >= low)
-        rows = np.flatnonzero(meets.all(axis=1))
-        return Surroundings(boxes.only(rows), self.attached)
+        """Only what may come into the box from low to high."""
+        rows = _meeting(self.boxes, low, high)
+        return Surroundings(self.obstacles.only(rows), self.attached, self.boxes[rows])
+
+
+def _meeting(boxes: Floats, low: Floats, high: Floats) -> Indices:
+    """Which of ``boxes`` (m, 2, 3) meet the one from low to high."""
+    meets = (boxes[:, 0] <= high) & (boxes[:, 1] >= low)
+    return np.flatnonzero(meets[:, 0] & meets[:, 1] & meets[:, 2])

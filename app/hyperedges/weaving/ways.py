@@ -9,8 +9,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
+from app.grouped import starts_of
 from app.hyperedges.clearance.box_tree import in_parts
-from app.hyperedges.rows import starts_of
 from app.hyperedges.weaving.detours import find_way
 from app.hyperedges.weaving.grid import Grid, collect
 from app.hyperedges.weaving.plan import BEND, NEXT, Plan

@@ -22,7 +22,7 @@ def meet(first: Floats, second: Floats) -> bool:
 
 @pytest.mark.parametrize("layers", [1, 3])
 @given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 70))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_boxes_of_two_sets_meet_as_in_a_plain_loop(layers: int, seed: int, count: int) -> None:
     chance = np.random.default_rng(seed)
     some, others = boxes(chance, 20, layers), boxes(chance, count, layers)
@@ -39,7 +39,7 @@ def test_boxes_of_two_sets_meet_as_in_a_plain_loop(layers: int, seed: int, count
 
 @pytest.mark.parametrize("layers", [1, 3])
 @given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 70))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_boxes_of_one_set_meet_each_other_once(layers: int, seed: int, count: int) -> None:
     chance = np.random.default_rng(seed)
     some = boxes(chance, count, layers)

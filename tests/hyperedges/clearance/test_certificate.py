@@ -166,7 +166,7 @@ def scene_of(seed: int) -> Placement:
 
 
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 def test_conflicts_are_those_that_sampling_finds(seed: int) -> None:
     scene = scene_of(seed)
     routing = route(scene, curves="prose")

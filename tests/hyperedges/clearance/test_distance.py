@@ -25,7 +25,7 @@ def between(first: Floats, second: Floats, at: tuple[float, float]) -> float:
 
 
 @given(pair=pairs_of_curves(), enough=st.sampled_from([np.inf, 1.0, 1e-3]))
-@settings(max_examples=CASES, deadline=None)
+@settings(max_examples=CASES)
 def test_the_lower_bound_never_exceeds_what_sampling_finds(
     pair: tuple[Floats, Floats], enough: float
 ) -> None:
@@ -36,7 +36,7 @@ def test_the_lower_bound_never_exceeds_what_sampling_finds(
 
 
 @given(pair=pairs_of_curves())
-@settings(max_examples=CASES // 4, deadline=None)
+@settings(max_examples=CASES // 4)
 def test_bounds_close_in_on_each_other_or_on_nothing(pair: tuple[Floats, Floats]) -> None:
     lower, upper, _, _ = bounds(*pair, np.inf, 0.01)
     extent = float(np.ptp(np.concatenate(pair), axis=0).max())
@@ -44,7 +44,7 @@ def test_bounds_close_in_on_each_other_or_on_nothing(pair: tuple[Floats, Floats]
 
 
 @given(pair=pairs_of_curves(), share=st.floats(0.1, 10))
-@settings(max_examples=CASES // 4, deadline=None)
+@settings(max_examples=CASES // 4)
 def test_it_decides_whether_curves_are_far_enough(
     pair: tuple[Floats, Floats], share: float
 ) -> None:
@@ -60,7 +60,7 @@ def test_it_decides_whether_curves_are_far_enough(
 @pytest.mark.parametrize("scale", [1e-9, 1e-3, 1.0, 1e5])
 @pytest.mark.parametrize("share", [1e-4, 0.01, 0.3, 3.0])
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_curves_in_two_planes_that_cross_are_as_far_apart_as_the_planes(
     scale: float, share: float, seed: int
 ) -> None:
@@ -77,7 +77,7 @@ def test_curves_in_two_planes_that_cross_are_as_far_apart_as_the_planes(
 
 @pytest.mark.parametrize("share", [1e-3, 0.01, 0.1, 1.0])
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_parallel_curves_are_as_far_apart_as_they_run(share: float, seed: int) -> None:
     first = np.random.default_rng(seed).uniform(-1, 1, (4, 3)) * [1, 1, 0]
     first, second = first @ turned(seed), (first + np.array([0, 0, share])) @ turned(seed)

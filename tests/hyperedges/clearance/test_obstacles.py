@@ -47,7 +47,7 @@ def sampled(curve: Floats, boxes: Obstacles, k: int) -> float:
     flat=st.booleans(),
     coarse=st.booleans(),
 )
-@settings(max_examples=CASES // 4, deadline=None)
+@settings(max_examples=CASES // 4)
 def test_the_lower_bound_never_exceeds_what_sampling_finds(
     seed: int, scale: float, shift: float, size: float, flat: bool, coarse: bool
 ) -> None:
@@ -74,7 +74,7 @@ def test_the_lower_bound_never_exceeds_what_sampling_finds(
 
 @pytest.mark.parametrize("gap", [0.3, 0.01, 1e-4])
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_a_known_gap_above_a_box_is_found_within_a_hundredth(gap: float, seed: int) -> None:
     chance, turn = np.random.default_rng(seed), turned(seed)
     curve = chance.uniform(-1, 1, (4, 3)) * [1, 1, 0] + [0, 0, 2 + 0.1 + gap]

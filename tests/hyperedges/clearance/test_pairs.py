@@ -33,7 +33,7 @@ def near_pairs_in_a_loop(
 
 @pytest.mark.parametrize("shape", ["spread", "flat", "long tubes", "one place", "far away"])
 @given(seed=st.integers(0, 2**32 - 1), count=st.integers(0, 60))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_a_plain_loop_finds_the_same_pairs(shape: str, seed: int, count: int) -> None:
     chance = np.random.default_rng(seed)
     curves = chance.uniform(0, 9, (count, 1, 3)) + chance.uniform(-1, 1, (count, 4, 3))
@@ -77,7 +77,7 @@ def test_boxes_hold_the_tubes() -> None:
 
 
 @given(pair=pairs_of_curves(), radii=st.tuples(st.floats(0, 2), st.floats(0, 2)))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_gaps_are_distances_less_both_radii(
     pair: tuple[Floats, Floats], radii: tuple[float, float]
 ) -> None:
@@ -92,7 +92,7 @@ def test_gaps_are_distances_less_both_radii(
 
 @pytest.mark.parametrize("gap", [0.3, 0.05, 1e-3, -0.01, -0.2])
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_a_known_gap_between_surfaces_is_found_within_a_hundredth(gap: float, seed: int) -> None:
     chance = np.random.default_rng(seed)
     first, second = chance.uniform(-3, 3, (2, 4, 3)) * [1, 1, 0]

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.arrays import Floats
@@ -64,7 +64,6 @@ angles = st.floats(-1.2, 1.2)
 strictnesses = st.integers(SOFT, AROUND)
 
 
-@settings(deadline=None)
 @given(strictnesses, st.floats(1.5, 9.0), st.floats(-np.pi, np.pi))
 def test_courses_between_attachments_are_smooth(level: int, span: float, heading: float) -> None:
     start, end = foot(0, 0), foot(span * np.cos(heading), span * np.sin(heading))
@@ -73,7 +72,6 @@ def test_courses_between_attachments_are_smooth(level: int, span: float, heading
     assert pieces[:, :, 2].max() <= PLANE / 0.75 + 1e-9
 
 
-@settings(deadline=None)
 @given(strictnesses, st.floats(1.0, 9.0), angles)
 def test_courses_from_attachments_to_joins_are_smooth(level: int, span: float, turn: float) -> None:
     start, end = foot(0, 0), join(span, 0, np.pi + turn)
@@ -82,7 +80,6 @@ def test_courses_from_attachments_to_joins_are_smooth(level: int, span: float, t
         assert_sound(pieces, one, other)
 
 
-@settings(deadline=None)
 @given(st.integers(FLAT, AROUND), st.floats(2.0, 9.0), angles, angles)
 def test_courses_between_joins_stay_in_their_plane(
     level: int, span: float, turn: float, other: float

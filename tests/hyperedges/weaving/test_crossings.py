@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.arrays import Floats
@@ -30,7 +30,6 @@ def sampled_gap(one: Floats, other: Floats) -> float:
     return float(np.linalg.norm(a[:, None] - b[None], axis=2).min())
 
 
-@settings(deadline=None)
 @given(seeds)
 def test_crossings_are_all_pairs_that_come_too_near(seed: int) -> None:
     chance = np.random.default_rng(seed)
@@ -53,7 +52,6 @@ def test_crossings_are_all_pairs_that_come_too_near(seed: int) -> None:
     assert pairs_of(found) == {pair for pair in expected if min(pair) < 3}
 
 
-@settings(deadline=None)
 @given(seeds)
 def test_gaps_of_legs_are_what_sampling_finds(seed: int) -> None:
     one, other = np.random.default_rng(seed).uniform(0, 3, (2, 2, 2))

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.arrays import Floats
@@ -48,7 +48,6 @@ def test_one_disc_is_passed_closely() -> None:
     assert length(way) < 10.5
 
 
-@settings(deadline=None)
 @given(scatters)
 def test_ways_go_around_all_discs(discs: Floats) -> None:
     way = way_around(discs)

@@ -1,13 +1,12 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.hyperedges.weaving.grid import collect, sort_into_cells
 
 
-@settings(deadline=None)
 @given(st.integers(0, 2**32 - 1), st.floats(0.05, 5.0), st.floats(0.0, 3.0))
 def test_all_places_near_a_line_are_found(seed: int, cell: float, reach: float) -> None:
     chance = np.random.default_rng(seed)

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.arrays import Floats
@@ -32,7 +32,6 @@ def closest(crossings: Crossings, planes: Floats, radii: Floats) -> float:
     return float((apart - radii[owners] - radii[others] - CLEARANCE).min(initial=np.inf))
 
 
-@settings(deadline=None)
 @given(seeds)
 def test_crossing_hyperedges_get_planes_far_enough_apart(seed: int) -> None:
     crossings, lows, radii = entangled(seed)
@@ -42,7 +41,6 @@ def test_crossing_hyperedges_get_planes_far_enough_apart(seed: int) -> None:
     assert closest(crossings, planes, radii) >= 0
 
 
-@settings(deadline=None)
 @given(seeds)
 def test_stacking_keeps_the_order_and_what_is_fixed(seed: int) -> None:
     crossings, lows, radii = entangled(seed)
