@@ -66,6 +66,10 @@ class RoutedHyperedge(BaseModel):
     """A hyperedge's curves, the paper's in the order in which CURVES makes them."""
 
     id: str
+    color: str = Field(
+        description="As it is drawn, `#rrggbb`: its own, its kind's or the palette's.",
+        pattern="^#[0-9a-f]{6}$",
+    )
     join_plane: float | None = Field(description="Height z of the joins.")
     radius: float
     attachments: list[PlacedAttachment]

@@ -1,17 +1,20 @@
-"""The numbers of a layout as JSON: where items stand, and the curves of every hyperedge."""
+"""The numbers of a layout as JSON: where items stand, and curves and colours of hyperedges."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from pydantic_core import to_json
 
 from app.arrays import Floats, Indices
 from app.hyperedges.routing import Routing
+from app.notations.loader import load_notation
 from app.output.clearance_numbers import Verdict, clearance_numbers
 from app.placement.placement import Placement
 from app.program.model import Program
+from app.scene.color import hexes_of
+from app.scene.hyperedge_colors import background_of, hyperedge_colors
 
 
 def layout_numbers(
@@ -20,16 +23,19 @@ def layout_numbers(
     routing: Routing,
     patches: Floats | None,
     verdict: Verdict | None,
+    hues: Indices | None = None,
 ) -> bytes:
     """JSON with world positions (z up, document units) and quaternions x, y, z, w.
 
     Every number has as many digits as it takes to read the same float back. ``patches``
     (s, 2, 4, 4, 3), top and bottom of each segment, are written where they are given; without a
-    ``verdict`` the clearance is null.
+    ``verdict`` the clearance is null. ``hues`` (h,) say which colour of the palette each hyperedge
+    takes; left out, they take one after another.
     """
     # Entry by entry: all as dictionaries at once would take many times the memory of the text.
     items = b",".join(map(_json, _items(program, placement)))
-    hyperedges = b",".join(map(_json, _hyperedges(program, placement, routing, patches)))
+    colors = _colors(program, hues)
+    hyperedges = b",".join(map(_json, _hyperedges(program, placement, routing, patches, colors)))
     clearance = None if verdict is None else clearance_numbers(program, routing, verdict)
     return b'{"items":[%b],"hyperedges":[%b],"clearance":%b}' % (
         items,
@@ -53,8 +59,17 @@ def _items(program: Program, placement: Placement) -> Iterator[dict[str, Any]]:
         }
 
 
+def _colors(program: Program, hues: Indices | None) -> list[str]:
+    notation = load_notation(program.notation)
+    return hexes_of(hyperedge_colors(program, notation, background_of(program), hues))
+
+
 def _hyperedges(
-    program: Program, placement: Placement, routing: Routing, patches: Floats | None
+    program: Program,
+    placement: Placement,
+    routing: Routing,
+    patches: Floats | None,
+    colors: Sequence[str],
 ) -> Iterator[dict[str, Any]]:
     for number, hyperedge in enumerate(program.hyperedges):
         places = _own(placement.attachment_starts, number)
@@ -68,6 +83,7 @@ def _hyperedges(
         )
         yield {
             "id": hyperedge.id,
+            "color": colors[number],
             "join_plane": float(routing.join_planes[number]),
             "radius": float(routing.radii[number]),
             "attachments": [

@@ -12,9 +12,10 @@ from app.placement.placement import Placement
 from app.program.model import Program
 from app.scene.boxes import boxes
 from app.scene.camera import Farthest, axes_from, frame, view_of
-from app.scene.color import linear_of, srgb_of
+from app.scene.color import linear_of
 from app.scene.curve_reach import CurveReach
 from app.scene.ground import disc_below, ground_color
+from app.scene.hyperedge_colors import background_of
 from app.scene.hyperedge_nodes import UPRIGHT, crowd_of, hyperedge_nodes
 from app.scene.item_nodes import item_nodes
 from app.scene.lights import three_point
@@ -41,9 +42,7 @@ def assemble(
     each hyperedge takes; left out, they take one after another. Raises `UnknownName` where there
     is no such palette.
     """
-    background = (
-        None if program.style.background == "transparent" else srgb_of(program.style.background)
-    )
+    background = background_of(program)
     materials: dict[Material, int] = {}
     items = item_nodes(program, notation, placement, materials)
     nodes, around, crowd = items, _boxes(items), None

@@ -43,7 +43,13 @@ def hex_of(srgb: Floats) -> str:
     >>> hex_of(srgb_of("#48c"))
     '#4488cc'
     """
-    return "#" + np.round(np.clip(srgb, 0, 1) * 255).astype(np.uint8).tobytes().hex()
+    return hexes_of(srgb)[0]
+
+
+def hexes_of(srgb: Floats) -> list[str]:
+    """The nearest colours ``#rrggbb`` to sRGB (n, 3)."""
+    digits = np.round(np.clip(srgb, 0, 1) * 255).astype(np.uint8).tobytes().hex()
+    return [f"#{digits[start : start + 6]}" for start in range(0, len(digits), 6)]
 
 
 def linear_of(srgb: Floats) -> Floats:

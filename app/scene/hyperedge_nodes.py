@@ -10,11 +10,11 @@ from app.arrays import Floats, Indices
 from app.notations.notation import HyperedgeStyle, Notation
 from app.program.model import Hyperedge, Program
 from app.scene.boxes import around_their_middles
-from app.scene.color import linear_of, srgb_of
+from app.scene.color import linear_of
 from app.scene.curve_reach import curve_boxes
 from app.scene.grain import textured_tubes, variant_of
+from app.scene.hyperedge_colors import hyperedge_colors
 from app.scene.materials import Look, in_white, make_material, make_materials
-from app.scene.palette import colors
 from app.scene.scene import Crowd, Material, Node, Primitive
 from app.solids.mesh import Mesh
 from app.tubes.tubes import Tubes
@@ -120,21 +120,10 @@ def _materials(
 def _styles(
     program: Program, notation: Notation, background: Floats | None, hues: Indices | None
 ) -> tuple[list[Look], Floats]:
-    """Looks (h,) and sRGB colours (h, 3): its own, or its kind's, or the palette's.
-
-    Every hyperedge takes one from the palette, whether it shows it or not: so a colour given to
-    one does not change the others'.
-    """
-    taken = np.arange(len(program.hyperedges)) if hues is None else hues
-    chosen = colors(program.style.palette, int(taken.max(initial=-1)) + 1, background)[taken]
-    looks: list[Look] = []
-    for number, hyperedge in enumerate(program.hyperedges):
-        style = notation.hyperedge_style(hyperedge.kind)
-        looks.append(_look(hyperedge, style))
-        given = hyperedge.color or style.color
-        if given is not None:
-            chosen[number] = srgb_of(given)
-    return looks, chosen
+    """Looks (h,) and sRGB colours (h, 3)."""
+    styles = (notation.hyperedge_style(hyperedge.kind) for hyperedge in program.hyperedges)
+    looks = [_look(*each) for each in zip(program.hyperedges, styles, strict=True)]
+    return looks, hyperedge_colors(program, notation, background, hues)
 
 
 def _look(hyperedge: Hyperedge, style: HyperedgeStyle) -> Look:

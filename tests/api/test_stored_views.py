@@ -66,6 +66,24 @@ def test_a_scene_of_what_changed_alone(client: httpx.Client, path: str) -> None:
     assert delta(before.content) is None
 
 
+def materials(data: bytes) -> set[str]:
+    """The names of what is drawn in a scene."""
+    return {material["name"] for material in Asset.from_glb(data).json["materials"]}
+
+
+def test_colours_that_an_edit_left_alone_are_told_as_they_are_drawn(
+    client: httpx.Client, path: str
+) -> None:
+    edit(client, path, ADD, JOIN)
+    (_, before) = client.get(f"{path}/layout").json()["hyperedges"]
+    edit(client, path, {"type": "remove_hyperedge", "id": "e"})
+    (after,) = client.get(f"{path}/layout").json()["hyperedges"]
+    assert (after["id"], after["color"]) == ("f", before["color"])
+    assert f"plastic {after['color']}" in materials(client.get(f"{path}/render").content)
+    anew = client.post("/v1/layout", content=client.get(path).content)
+    assert anew.json()["hyperedges"][0]["color"] != after["color"], "it would be the first"
+
+
 def test_what_was_removed_is_named(client: httpx.Client, path: str) -> None:
     edit(client, path, ADD, JOIN)
     edit(client, path, {"type": "remove_item", "id": "w"})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import threading
 import time
 from collections.abc import Iterator
@@ -54,6 +55,7 @@ def test_a_document_becomes_numbers(client: Client) -> None:
     layout = client.layout(SMALL, patches=True)
     assert [item.id for item in layout.items] == ["x", "y", "z"]
     (hyperedge,) = layout.hyperedges
+    assert re.fullmatch("#[0-9a-f]{6}", hyperedge.color)
     assert [attachment.item for attachment in hyperedge.attachments] == ["x", "y", "z"]
     ends = {segment.from_.attachment for segment in hyperedge.segments}
     assert ends & {0, 1, 2}

@@ -70,9 +70,10 @@ class Join:
 
 @dataclass(frozen=True, slots=True)
 class RoutedHyperedge:
-    """A hyperedge's curves; ``join_plane`` is the height z of its joins."""
+    """A hyperedge's curves; ``join_plane`` is the height z of its joins, ``color`` as drawn."""
 
     id: str
+    color: str
     join_plane: float | None
     radius: float
     attachments: tuple[PlacedAttachment, ...]

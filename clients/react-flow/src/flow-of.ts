@@ -44,7 +44,8 @@ const DEFAULT_SIZE: Size = { width: 144, height: 56 };
  * The graph of a program: the way back from `programOf`.
  *
  * It takes programs of others too. Their items stand where `layout` (the service's numbers) has them,
- * or in rows; they are `placed`, and count as having no position until somebody moves them.
+ * or in rows; they are `placed`, and count as having no position until somebody moves them. By
+ * `layout` each hyperedge's `data.paint` is the colour of its tube, be it chosen by the service or not.
  */
 export function flowOf(
   program: ProgramDocument,
@@ -87,7 +88,10 @@ export function flowOf(
     middles.set(item.id, { x: corner.x + within.x, y: corner.y + within.y, ...size });
   }
   const edges: FlowEdge[] = [];
-  for (const hyperedge of program.hyperedges ?? []) takeHyperedge(hyperedge, middles, nodes, edges);
+  const paints = new Map(options.layout?.hyperedges.map(({ id, color }) => [id, color]));
+  for (const hyperedge of program.hyperedges ?? []) {
+    takeHyperedge(hyperedge, paints.get(hyperedge.id), middles, nodes, edges);
+  }
   return { nodes, edges };
 }
 
@@ -139,6 +143,7 @@ function middleIn(item: Item, number: number, parent: Place | undefined, scale: 
 
 function takeHyperedge(
   hyperedge: Hyperedge,
+  paint: string | undefined,
   middles: ReadonlyMap<string, Place>,
   nodes: FlowNode[],
   edges: FlowEdge[],
@@ -147,6 +152,7 @@ function takeHyperedge(
   const kept = keptOf(hyperedge);
   const own = isPlace(kept) || kept.edge ? leave(hyperedge.data ?? {}, ["flow"]) : (hyperedge.data ?? {});
   const data: Record<string, unknown> = { ...pick(hyperedge, HYPEREDGE_FIELDS), ...kept.data };
+  if (paint !== undefined) data["paint"] = paint;
   delete data["data"];
   if (Object.keys(own).length > 0) data["data"] = own;
   const [first, second] = attachments;
@@ -158,7 +164,9 @@ function takeHyperedge(
   const position = isPlace(kept) ? { x: kept.x, y: kept.y } : between(attachments, middles);
   if (!isPlace(kept)) data["placed"] = position;
   nodes.push({ id, type: JUNCTION, position, data });
-  for (const end of attachments) edges.push(lineOf(id, end));
+  for (const end of attachments) {
+    edges.push({ ...lineOf(id, end), ...(paint === undefined ? {} : { data: { paint } }) });
+  }
 }
 
 /** The line from an item's handle to a hyperedge's junction. */

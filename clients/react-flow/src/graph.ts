@@ -75,7 +75,7 @@ export const ITEM_FIELDS: readonly string[] = [...LOOK, "shape", "rotation", "at
 export const HYPEREDGE_FIELDS: readonly string[] = [...LOOK, "radius", "join_height", "data"];
 
 /** Names in a node's data that are the adapter's own. */
-export const OWN_FIELDS: readonly string[] = ["handles", "placed", "position", "z", "asIs"];
+export const OWN_FIELDS: readonly string[] = ["handles", "placed", "position", "z", "asIs", "paint"];
 
 /** The fields of these names that say anything. */
 export function pick(from: object, names: readonly string[]): Record<string, unknown> {

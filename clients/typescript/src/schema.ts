@@ -2484,6 +2484,11 @@ export interface components {
             /** Id */
             id: string;
             /**
+             * Color
+             * @description As it is drawn, `#rrggbb`: its own, its kind's or the palette's.
+             */
+            color: string;
+            /**
              * Join Plane
              * @description Height z of the joins.
              */

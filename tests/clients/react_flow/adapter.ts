@@ -57,6 +57,18 @@ test("a program that others made comes back from the graph as it was", async () 
   }
 });
 
+test("edges have the colours of tubes, which are not the program's", async () => {
+  const ends = ["a", "b", "c"].map((item) => ({ item }));
+  const [one, two] = [{ id: "one", attachments: ends }, { id: "two", attachments: ends.slice(1), data: { flow: { edge: true } } }];
+  const program = await kept("painted", { items: ends.map(({ item }) => ({ id: item })), hyperedges: [one, two] });
+  const layout = await tubeloom.program("painted").layout();
+  const colors = layout.hyperedges.map(({ color }) => color);
+  const { nodes, edges } = flowOf(program, { layout });
+  equal(nodes.find(({ id }) => id === "one")?.data["paint"], colors[0]);
+  deepEqual(edges.map(({ data }) => data?.["paint"]), [colors[0], colors[0], colors[0], colors[1]]);
+  deepEqual(editsBetween(program, programOf(nodes, edges)), []);
+});
+
 test("an item that others made keeps its shape when its node is moved", async () => {
   const items = [{ id: "tray" }, { id: "in", parent: "tray", color: "#112233" }];
   const program = await kept("moved", { items });
