@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 
 import pytest
 from hypothesis import settings
@@ -10,6 +11,11 @@ from hypothesis import settings
 # How long an example takes says more about what else the machine does than about the code.
 settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
+
+# Python may keep what it compiles, whatever is usual on this machine: else each process that runs
+# tests rewrites all their assertions anew, which takes a dozen seconds.
+sys.dont_write_bytecode = False
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 LONG = (
     *("cluster", "editor", "shelf", "jobs_survive", "examples", "jobs", "stored_under_stress"),
