@@ -4,7 +4,7 @@ import { execFile } from "node:child_process";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
-import { heard, launch, open, pixels, seen, shown, until } from "./browser.mjs";
+import { heard, launch, open, pixels, seen, SERVICE, shown, until } from "./browser.mjs";
 
 const PROGRAM = `{
  "name": "Two",
@@ -51,6 +51,44 @@ test("it opens with the second clause of the paper's program, and says that noth
   await page.getByText("No two hyperedges touch").waitFor();
   assert.deepEqual(page.troubles, []);
   await page.context().close();
+});
+
+test("the text can be written in before its editor is there, which then goes on where one is", async () => {
+  const page = await open(browser, "/viewer", { viewport: { width: 1000, height: 600 } });
+  let release;
+  const held = new Promise((resolve) => (release = resolve));
+  await page.route(/\/web\/editor-/, async (route) => {
+    await held;
+    await route.continue();
+  });
+  await page.goto(`${SERVICE}/#example=hello`);
+  await shown(page);
+  const linesOf = (page) =>
+    page.evaluate(() => {
+      const found = document.querySelector("#editor").shadowRoot.querySelectorAll(".lines div, .cm-line");
+      return [...found].filter(({ innerText }) => innerText.trim()).map((line) => {
+        const words = document.createRange();
+        words.selectNodeContents(line);
+        const { left, top } = words.getClientRects()[0];
+        return [left, top].map(Math.round).join();
+      });
+    });
+  const before = await linesOf(page);
+  const now = await write(page, PROGRAM.replace("}\n ]\n}", "}\n ],\n \"notation\": \n}"));
+  for (let count = 0; count < 2; count += 1) await page.keyboard.press("ArrowLeft");
+  await page.keyboard.type('"pla');
+  release();
+  await page.locator(".cm-content").waitFor();
+  await page.keyboard.type('in"');
+  await heard(page, "load", later(now, "event.items === 2"));
+  assert.match(await page.locator(".cm-content").innerText(), /"notation": "plain"\n\}/);
+  assert.ok(pixels(await seen(page), isRed).length > 200);
+  assert.deepEqual(page.troubles, []);
+  const other = await playground();
+  await other.locator(".cm-content").waitFor();
+  assert.ok(before.length > 3);
+  assert.deepEqual(await linesOf(other), before);
+  for (const each of [page, other]) await each.context().close();
 });
 
 test("what one types shows at once", async () => {

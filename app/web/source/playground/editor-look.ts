@@ -30,6 +30,7 @@ const look = EditorView.theme({
   ".cm-selectionMatch": { backgroundColor: "var(--match)" },
   ".cm-matchingBracket, &.cm-focused .cm-matchingBracket": { backgroundColor: "var(--match)", outline: "none" },
   ".cm-foldPlaceholder": { backgroundColor: "var(--tint)", border: "1px solid var(--edge)", color: "var(--ink)", padding: "0 6px" },
+  ".cm-foldGutter": { width: "14px" },
   ".cm-foldGutter .cm-gutterElement": { color: "var(--quiet)" },
   ".cm-panels": { backgroundColor: "var(--ground)", color: "var(--ink)" },
   ".cm-panels.cm-panels-top": { borderBottom: "1px solid var(--edge)" },

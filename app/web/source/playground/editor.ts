@@ -1,4 +1,4 @@
-import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap, type CompletionSource } from "@codemirror/autocomplete";
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { json } from "@codemirror/lang-json";
 import { bracketMatching, foldGutter, foldKeymap, indentOnInput, indentUnit } from "@codemirror/language";
@@ -15,32 +15,28 @@ import {
   lineNumbers,
 } from "@codemirror/view";
 import type { Edit } from "jsonc-parser";
+import { complete } from "./completion.ts";
 import { editorLook } from "./editor-look.ts";
 import type { Range } from "./places.ts";
-
-/** What the page does when something happens in the editor. */
-export interface EditorEvents {
-  /** The text is another one; `isTyped` unless the page itself has changed it. */
-  change(text: string, isTyped: boolean): void;
-  /** People have moved the cursor, or cursors. */
-  cursor(offsets: number[]): void;
-}
+import type { Standing, TextBox, TextEvents } from "./text.ts";
 
 const byPage = Annotation.define<boolean>();
 
-/** The text on the left. It stands in a shadow tree, where its styles need no permission. */
-export class ProgramEditor {
+/** The text in an editor that knows what programs are made of. */
+export class ProgramEditor implements TextBox {
   readonly #view: EditorView;
   readonly #darkness = new Compartment();
+  readonly #events: TextEvents;
 
-  constructor(host: HTMLElement, complete: CompletionSource, events: EditorEvents) {
-    const root = host.attachShadow({ mode: "open" });
+  constructor(root: ShadowRoot, text: string, events: TextEvents) {
+    this.#events = events;
     const frame = new CSSStyleSheet();
     frame.replaceSync(":host { display: block; } .cm-editor { height: 100%; }");
-    root.adoptedStyleSheets = [frame];
+    root.adoptedStyleSheets = [...root.adoptedStyleSheets, frame];
     this.#view = new EditorView({
       root,
       parent: root,
+      doc: text,
       extensions: [
         lineNumbers(),
         lintGutter(),
@@ -109,7 +105,15 @@ export class ProgramEditor {
     return this.#view.state.selection.ranges.map(({ head }) => head);
   }
 
-  /** Change some places of the text, as if they had been typed. */
+  /** Go on from where somebody is in the same text elsewhere. */
+  resume({ range: { from, to }, isFocused, top }: Standing): void {
+    this.#view.dispatch({ selection: { anchor: from, head: to }, annotations: byPage.of(true) });
+    this.#view.scrollDOM.scrollTop = top;
+    if (!isFocused) return;
+    this.#view.focus();
+    this.#events.cursor(this.cursors);
+  }
+
   apply(edits: readonly Edit[]): void {
     this.#view.dispatch({
       changes: edits.map(({ offset, length, content }) => ({ from: offset, to: offset + length, insert: content })),
@@ -118,7 +122,6 @@ export class ProgramEditor {
     });
   }
 
-  /** Select these stretches, the last one foremost, and show it. The focus stays where it is. */
   select(ranges: readonly Range[]): void {
     const [last] = ranges.slice(-1);
     if (last === undefined) return;
@@ -133,7 +136,6 @@ export class ProgramEditor {
     });
   }
 
-  /** Go to a place, to write there. */
   visit({ from, to }: Range): void {
     this.#view.dispatch({
       selection: { anchor: from, head: to },
@@ -142,7 +144,6 @@ export class ProgramEditor {
     this.#view.focus();
   }
 
-  /** Underline what is wrong. */
   mark(diagnostics: readonly Diagnostic[]): void {
     this.#view.dispatch(setDiagnostics(this.#view.state, diagnostics));
   }

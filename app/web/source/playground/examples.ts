@@ -1,4 +1,6 @@
-/// <reference types="vite/types/importMeta.d.ts" />
+/// <reference types="vite/client" />
+import FIRST from "../../../../examples/id3-clause-2.json?raw";
+
 const PROGRAMS = import.meta.glob<string>("../../../../examples/*.json", { query: "?url", import: "default", eager: true });
 const OTHERS = import.meta.glob<string>(["../../../../examples/yosys/*.json", "../../../../examples/hif/*.json"], {
   query: "?url",
@@ -41,7 +43,9 @@ export const EXAMPLES: readonly Example[] = Object.entries({ ...PROGRAMS, ...OTH
   .sort((one, other) => rank(one.name) - rank(other.name) || one.name.localeCompare(other.name));
 
 /** The contents of an example, in whatever format it has. */
-export async function contentsOf({ url }: Example): Promise<string> {
+export async function contentsOf({ name, url }: Example): Promise<string> {
+  // What most people see first comes with the page.
+  if (name === DEFAULT_EXAMPLE) return FIRST;
   const response = await fetch(url);
   if (!response.ok) throw new Error("This example is not there.");
   return response.text();

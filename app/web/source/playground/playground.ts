@@ -1,12 +1,10 @@
 import "../tube-viewer.ts";
 import { TubeViewer, type TubeEvents } from "../viewer/element.ts";
 import { keyOf, type ThingName } from "../viewer/things.ts";
-import { complete } from "./completion.ts";
 import { copy, curlOf, fileOf } from "./curl.ts";
 import { open } from "./documents.ts";
 import { Downloads } from "./downloads.ts";
 import { takeFiles } from "./dropping.ts";
-import { ProgramEditor } from "./editor.ts";
 import { contentsOf, DEFAULT_EXAMPLE, EXAMPLES } from "./examples.ts";
 import { fragmentOf, read } from "./link.ts";
 import { Options } from "./options.ts";
@@ -18,11 +16,14 @@ import { rewrite } from "./rewriting.ts";
 import { heedKey, troubleOf } from "./service.ts";
 import { share } from "./split.ts";
 import { Stills, type Quality } from "./stills.ts";
+import { ProgramText } from "./text.ts";
 import { switchTheme } from "./theme.ts";
 import { countsOf, verdictOf } from "./verdict.ts";
 
 const KEPT = "tubeloom.text";
 const TYPING_MILLISECONDS = 150;
+/** So long the editor waits for the first picture, which comes sooner without it. */
+const PATIENCE_MILLISECONDS = 1500;
 const DRAWING_MILLISECONDS = { interactive: 0, draft: 250, final: 900 };
 
 const viewer = part("tube-viewer", TubeViewer);
@@ -38,7 +39,7 @@ let shown = "";
 let isKept = false;
 let view: readonly [number, number, number] | undefined;
 
-const editor = new ProgramEditor(part("#editor", HTMLElement), complete, {
+const editor = new ProgramText(part("#editor", HTMLElement), {
   change(text, isTyped) {
     parsed = parse(text);
     problems.show(parsed);
@@ -149,6 +150,18 @@ async function begin(): Promise<void> {
   }
 }
 
+/** Have the editor come once there is a picture, or will be none. */
+function enrichAfterwards(): void {
+  const enrich = () => editor.enrich();
+  setTimeout(enrich, PATIENCE_MILLISECONDS);
+  viewer.addEventListener("tube-problem", enrich, { once: true });
+  viewer.addEventListener(
+    "tube-load",
+    () => void viewer.drawn().then(() => requestAnimationFrame(() => setTimeout(enrich))),
+    { once: true },
+  );
+}
+
 function selectInPicture(): void {
   const drawn = new Set(viewer.things.map(keyOf));
   const things = editor.cursors.map((offset) => thingAt(parsed, offset));
@@ -257,3 +270,4 @@ heedKey((key) => {
 });
 window.addEventListener("hashchange", () => void begin());
 void begin();
+enrichAfterwards();

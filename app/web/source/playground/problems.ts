@@ -2,9 +2,9 @@ import type { Diagnostic } from "@codemirror/lint";
 import { printParseErrorCode, type ParseError } from "jsonc-parser";
 import type { Clearance } from "../viewer/clearance.ts";
 import type { ProblemDetails } from "../viewer/loading.ts";
-import type { ProgramEditor } from "./editor.ts";
 import { make } from "./page.ts";
 import { rangeOfPointer, rangeOfThing, type Parsed } from "./places.ts";
+import type { TextBox } from "./text.ts";
 import { conflictsOf, pinchesOf } from "./verdict.ts";
 
 const SENTENCES: Record<string, string> = {
@@ -28,13 +28,13 @@ const MOST_LISTED = 100;
 
 /** What is wrong with the text, underlined in it and listed below it. */
 export class Problems {
-  readonly #editor: ProgramEditor;
+  readonly #editor: TextBox;
   readonly #summary: HTMLElement;
   readonly #list: HTMLElement;
   #problem: ProblemDetails | undefined;
   #clearance: Clearance | undefined;
 
-  constructor(editor: ProgramEditor, summary: HTMLElement, list: HTMLElement) {
+  constructor(editor: TextBox, summary: HTMLElement, list: HTMLElement) {
     this.#editor = editor;
     this.#summary = summary;
     this.#list = list;

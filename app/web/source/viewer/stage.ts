@@ -3,6 +3,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Lighting } from "./lighting.ts";
 import { poseAround, type Pose } from "./camera.ts";
 import { drawerOf, type Drawer, type Stereo } from "./stereo.ts";
+import { warm } from "./warming.ts";
 
 /** What moves the camera by itself; returns whether it goes on. */
 export type Mover = (seconds: number) => boolean;
@@ -35,6 +36,8 @@ export class Stage {
     this.#canvas = canvas;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setClearAlpha(0);
+    // All programs are three's own; to ask how they were built, a frame waits several times.
+    this.renderer.debug.checkShaderErrors = false;
     this.#drawer = drawerOf("none", this.renderer);
     this.isSoftware = isDrawnBySoftware(this.renderer);
     this.lighting = new Lighting(this.renderer, this.world, this.isSoftware);
@@ -45,6 +48,7 @@ export class Stage {
     this.controls.addEventListener("start", () => (this.#move = undefined));
     this.world.add(this.camera);
     this.renderer.xr.addEventListener("sessionend", this.invalidate);
+    if (this.isSoftware) warm(this.renderer, this.world, this.camera);
   }
 
   /** Have a frame drawn soon. */
