@@ -188,10 +188,16 @@ test("the scene is downloaded in other formats", async () => {
 });
 
 test("a final picture shows how it comes, and can be stopped", async () => {
-  const page = await playground();
+  const page = await playground(PROGRAM.replace('"Two"', `"Two at ${Date.now()}"`));
   await page.getByRole("radio", { name: "Final picture" }).check();
   const drawing = page.getByRole("group", { name: "Drawing" });
   await drawing.getByRole("progressbar").waitFor();
+  await page.locator("#still:not([hidden])").waitFor();
+  assert.ok(await page.locator("#still").evaluate((image) => image.decode().then(() => image.naturalWidth > 300)));
+  const preview = await seen(page, "#still");
+  assert.ok(await drawing.getByRole("progressbar").isVisible(), "what is seen is not finished");
+  const share = pixels(preview, isRed).length / (preview.width * preview.height);
+  assert.ok(share > 0.005 && share < 0.2, `a share of ${share} is red`);
   await drawing.getByRole("button", { name: "Cancel" }).click();
   await drawing.getByRole("button", { name: "Draw again" }).waitFor();
   await page.getByRole("radio", { name: "Draft picture" }).check();
