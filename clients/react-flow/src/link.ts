@@ -1,5 +1,6 @@
 import { Problem, type Client, type Program, type ProgramDocument, type Revision } from "tubeloom-client";
 import { editsBetween } from "./edits-between.js";
+import { isLost, wait } from "./waiting.js";
 
 /**
  * How things stand between an editor and the service. `refused`: the service does not take what was
@@ -285,14 +286,4 @@ export class Link {
     this.#state = { ...this.#state, ...news };
     if (!this.#end.signal.aborted) this.#listener.state(this.#state);
   }
-}
-
-/** Whether there was no answer, or none for now. */
-function isLost(error: unknown): boolean {
-  if (error instanceof Problem) return error.status >= 500 || error.status === 429;
-  return error instanceof TypeError || error instanceof DOMException;
-}
-
-function wait(milliseconds: number): Promise<void> {
-  return new Promise((resolve) => setTimeout(resolve, milliseconds));
 }

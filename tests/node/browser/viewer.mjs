@@ -215,3 +215,97 @@ test("a program that is not there is said to be so", async () => {
   assert.equal(await page.locator("tube-viewer").getByRole("status").textContent(), detail);
   await page.close();
 });
+
+/** Two equal boxes, the red one near and the blue one far, and no tube. */
+const NEAR_AND_FAR = {
+  items: [
+    { id: "near", color: "#e00000", position: [-1.5, -4, 0.5] },
+    { id: "far", color: "#0020e0", position: [1.5, 4, 0.5] },
+  ].map((item) => ({ ...item, shape: { type: "box", size: [1, 1, 1] } })),
+  hyperedges: [],
+};
+
+/** The least and the greatest x of these pixels. */
+const sidesOf = (found) => found.reduce(([least, most], [x]) => [Math.min(least, x), Math.max(most, x)], [Infinity, -Infinity]);
+
+const widthOf = (found) => sidesOf(found)[1] - sidesOf(found)[0];
+
+/** How wide the near and the far box are, in pixels. */
+async function widths(page) {
+  const picture = await seen(page);
+  return [isRed, isBlue].map((suits) => widthOf(pixels(picture, suits).filter(([, y]) => y > 60)));
+}
+
+test("what is far is as large as what is near where the program wants it so", async () => {
+  const view = { from: [0, -1, 0.4] };
+  await store("perspective", { ...NEAR_AND_FAR, view });
+  await store("parallel", { ...NEAR_AND_FAR, view: { ...view, projection: "orthographic" } });
+  const show = async (id, more = "") => {
+    const page = await open(browser, `/viewer?stored=${id}&theme=light&labels=never${more}`);
+    await shown(page);
+    return page;
+  };
+  const usual = await show("perspective");
+  const [near, far] = await widths(usual);
+  assert.ok(near > 1.2 * far, `${near} and ${far} pixels wide`);
+  await usual.close();
+  const page = await show("parallel");
+  const [one, other] = await widths(page);
+  assert.ok(one > 40 && Math.abs(one - other) <= 2, `${one} and ${other} pixels wide`);
+  await page.mouse.move(350, 300);
+  await page.mouse.wheel(0, -300);
+  const [larger, equal] = await widths(page);
+  assert.ok(larger > 1.15 * one && Math.abs(larger - equal) <= 2, `${larger} and ${equal} pixels wide`);
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("f");
+  assert.ok(Math.abs((await widths(page))[0] - one) <= 2);
+  const [x, y] = await middle(page, (red, green, blue) => isBlue(red, green, blue) && red < 100);
+  await page.mouse.click(x, y);
+  await heard(page, "select", "({ things }) => things[0]?.id === 'far'");
+  await page.close();
+});
+
+test("where tubes touch there are marks", async () => {
+  const corners = [[-2, -2], [2, 2], [-2, 2], [2, -2]];
+  await store("crossing", {
+    layout: { dimensions: 2 },
+    items: corners.map(([x, y], place) => ({ id: `i${place}`, color: "#d0d0d0", position: [x, y, 0.3] })),
+    hyperedges: [
+      { id: "up", color: "#202020", attachments: [{ item: "i0" }, { item: "i1" }] },
+      { id: "down", color: "#202020", attachments: [{ item: "i2" }, { item: "i3" }] },
+    ],
+  });
+  const isMark = (red, green, blue) => red > 200 && green < 60 && blue > 40 && blue < 110;
+  const page = await open(browser, "/viewer?stored=crossing&theme=light");
+  await shown(page);
+  const { clearance } = await heard(page, "clearance");
+  assert.ok(clearance.conflicts.length > 0);
+  assert.deepEqual([clearance.certified, clearance.conflicts[0].hyperedges.toSorted()], [false, ["down", "up"]]);
+  const marks = pixels(await seen(page), isMark);
+  assert.ok(marks.length > 40, `${marks.length} pixels of marks`);
+  const [left, right] = sidesOf(marks);
+  assert.ok(Math.abs((left + right) / 2 - 350) < 30, `marks from ${left} to ${right}`);
+  await page.evaluate(() => document.querySelector("tube-viewer").removeAttribute("conflicts"));
+  assert.equal(pixels(await seen(page), isMark).length, 0);
+  await page.close();
+});
+
+test("nothing is hidden by the toolbar", async () => {
+  for (const [width, height] of [[700, 500], [1280, 800], [390, 844], [900, 300]]) {
+    const page = await viewer("&labels=never", { viewport: { width, height } });
+    await page.evaluate(() => {
+      const [viewer] = document.querySelectorAll("tube-viewer");
+      viewer.program = { view: { from: [0, 0, 1] }, items: [{ id: "a", color: "#e00000", shape: { type: "box", size: [40, 20, 1] } }] };
+      viewer.removeAttribute("stored");
+    });
+    await heard(page, "load", "({ items }) => items === 1");
+    const bar = await page.getByRole("toolbar").boundingBox();
+    const picture = await seen(page);
+    const red = pixels(picture, isRed);
+    const hidden = red.filter(([x, y]) => x > bar.x && y < bar.y + bar.height);
+    assert.ok(red.length > 5000 && hidden.length === 0, `${width} × ${height}: ${hidden.length} of ${red.length} are hidden`);
+    const [left, right] = sidesOf(red);
+    assert.ok(left > 0 && right < width - 1);
+    await page.close();
+  }
+});

@@ -1,4 +1,4 @@
-import { Box3, Matrix4, Vector3, type PerspectiveCamera } from "three";
+import { Box3, Matrix4, Vector3, type Camera } from "three";
 
 /** Where a camera stands, and what it looks at. */
 export interface Pose {
@@ -6,41 +6,82 @@ export interface Pose {
   target: Vector3;
 }
 
+/** What a camera takes in. */
+export interface Lens {
+  /** From the lower edge of the picture to the upper, in degrees. */
+  fov: number;
+  aspect: number;
+  /** Whether what is far is drawn as large as what is near. */
+  isParallel: boolean;
+}
+
+/** A stretch at the picture's upper right corner, in shares of its width and height. */
+export interface Corner {
+  left: number;
+  bottom: number;
+}
+
 const MARGIN = 1.06;
 const ROUNDS = 8;
 const UP = new Vector3(0, 1, 0);
 
-/** The pose, in `direction` from points, from which all of them are just seen, in the middle. */
-export function poseAround(
-  points: readonly Vector3[],
-  direction: Vector3,
-  fov: number,
-  aspect: number,
-): Pose {
+/**
+ * The pose, in `direction` from points, from which all of them are just seen, in the middle of what
+ * is below `top`, a share of the picture's height.
+ */
+export function poseAround(points: readonly Vector3[], direction: Vector3, lens: Lens, top = 0): Pose {
   const target = new Box3().setFromPoints([...points]).getCenter(new Vector3());
-  const outward = direction.clone().normalize();
-  // From straight above, "up" would be no direction on the picture.
-  if (Math.abs(outward.dot(UP)) > 0.9999) outward.z += 1e-3;
-  const [right, up] = [new Vector3(), new Vector3()];
-  new Matrix4().lookAt(outward, new Vector3(), UP).extractBasis(right, up, new Vector3());
-  const upward = Math.tan((fov * Math.PI) / 360) / MARGIN;
-  const sideways = upward * aspect;
+  const { right, up, outward } = axesOf(direction);
+  const lower = tangentOf(lens) / MARGIN;
+  const upper = lower * (1 - 2 * top);
+  const sideways = lower * lens.aspect;
   const places = points.map((point) => {
     const arm = point.clone().sub(target);
-    return [arm.dot(right), arm.dot(up), arm.dot(outward)] as const;
+    return [arm.dot(right), arm.dot(up), lens.isParallel ? 0 : arm.dot(outward)] as const;
   });
   let [x, y, distance] = [0, 0, 0.1];
   // What is near looks larger, so that the middle of space is not the middle of the picture.
   for (let round = 0; round < ROUNDS; round += 1) {
     distance = 0.1;
     for (const [px, py, pz] of places) {
-      distance = Math.max(distance, pz + Math.abs(py - y) / upward, pz + Math.abs(px - x) / sideways);
+      const upward = (py - y) / (py > y ? upper : -lower);
+      distance = Math.max(distance, pz + upward, pz + Math.abs(px - x) / sideways);
     }
     x += middleOf(places.map(([px, , pz]) => (px - x) / (distance - pz))) * distance;
-    y += middleOf(places.map(([, py, pz]) => (py - y) / (distance - pz))) * distance;
+    y += (middleOf(places.map(([, py, pz]) => (py - y) / (distance - pz))) - (upper - lower) / 2) * distance;
   }
   target.addScaledVector(right, x).addScaledVector(up, y);
   return { position: target.clone().addScaledVector(outward, distance), target };
+}
+
+/** Whether anything is seen in a corner of the picture, by the corners of boxes, eight of each. */
+export function isUnder(boxes: readonly Vector3[], { position, target }: Pose, lens: Lens, { left, bottom }: Corner): boolean {
+  const arm = position.clone().sub(target);
+  const { right, up, outward } = axesOf(arm);
+  const [distance, tangent] = [arm.length(), tangentOf(lens)];
+  let [most, highest] = [-Infinity, -Infinity];
+  return boxes.some((corner, number) => {
+    if (number % 8 === 0) [most, highest] = [-Infinity, -Infinity];
+    const place = corner.clone().sub(target);
+    const scale = tangent * (lens.isParallel ? distance : distance - place.dot(outward));
+    most = Math.max(most, place.dot(right) / (scale * lens.aspect));
+    highest = Math.max(highest, place.dot(up) / scale);
+    return number % 8 === 7 && (most + 1) / 2 > left && (1 - highest) / 2 < bottom;
+  });
+}
+
+/** Half of a picture's height, seen from a distance of one. */
+export function tangentOf({ fov }: { fov: number }): number {
+  return Math.tan((fov * Math.PI) / 360);
+}
+
+function axesOf(direction: Vector3): { right: Vector3; up: Vector3; outward: Vector3 } {
+  const outward = direction.clone().normalize();
+  // From straight above, "up" would be no direction on the picture.
+  if (Math.abs(outward.dot(UP)) > 0.9999) outward.z += 1e-3;
+  const [right, up] = [new Vector3(), new Vector3()];
+  new Matrix4().lookAt(outward, new Vector3(), UP).extractBasis(right, up, new Vector3());
+  return { right, up, outward };
 }
 
 function middleOf(values: readonly number[]): number {
@@ -51,7 +92,7 @@ function middleOf(values: readonly number[]): number {
 }
 
 /** The direction in which a camera stands, from what it looks at. */
-export function directionOf(camera: PerspectiveCamera): Vector3 {
+export function directionOf(camera: Camera): Vector3 {
   return camera.getWorldDirection(new Vector3()).negate();
 }
 

@@ -1,9 +1,11 @@
-import { Group, Mesh, MeshBasicMaterial, TorusGeometry, Vector3, type Camera } from "three";
+import { Group, Mesh, MeshBasicMaterial, TorusGeometry, Vector3, type Box3, type Camera } from "three";
 import type { Layout } from "tubeloom-client";
 import { FROM_DOCUMENT } from "./scene.ts";
 
 /** What is proven of distances. */
 export type Clearance = NonNullable<Layout["clearance"]>;
+
+const RADIUS_SHARE = 1 / 60;
 
 /** A ring around each place where hyperedges come too near, which always faces whoever looks. */
 export class ConflictMarks {
@@ -11,8 +13,9 @@ export class ConflictMarks {
   readonly #ring = new TorusGeometry(1, 0.12, 8, 40);
   readonly #paint = new MeshBasicMaterial({ color: 0xe11d48, depthTest: false, transparent: true });
 
-  /** Mark these places; each ring has this radius. */
-  show(conflicts: Clearance["conflicts"], radius: number): void {
+  /** Mark these places in a scene that is as large as this box. */
+  show(conflicts: Clearance["conflicts"], box: Box3): void {
+    const radius = box.getSize(new Vector3()).length() * RADIUS_SHARE;
     this.group.clear();
     for (const { place } of conflicts) {
       const [x = 0, y = 0, z = 0] = place;

@@ -1,27 +1,26 @@
-import { Vector3 } from "three";
 import { Attention } from "./attention.ts";
 import { ConflictMarks } from "./clearance.ts";
+import { commandsOf } from "./commands.ts";
 import { Emphasis } from "./emphasis.ts";
 import type { Status, TubeEvents } from "./events.ts";
 import { Framing } from "./framing.ts";
 import { listenToKeys } from "./keyboard.ts";
 import { Overlay } from "./labels.ts";
-import type { Detail, Loaded } from "./loading.ts";
+import type { Loaded } from "./loading.ts";
 import { Mobile } from "./motion.ts";
 import { Narration } from "./narration.ts";
-import { ATTRIBUTES, DARK, optionsOf, SOURCES, STILL } from "./options.ts";
-import { build, type Parts } from "./page.ts";
+import { ATTRIBUTES, optionsOf, sourceOf, SOURCES } from "./options.ts";
+import { build, coveredBy, surroundings, type Parts } from "./page.ts";
 import { Picker } from "./picking.ts";
 import { watchPointer } from "./pointer.ts";
 import { Scene } from "./scene.ts";
 import { Showing, type Source } from "./showing.ts";
 import { Stage } from "./stage.ts";
+import { NO_WEBGL, StatusNote } from "./status.ts";
 import { keyOf, type Thing, type ThingKey, type ThingName } from "./things.ts";
-import { Toolbar, type ToolbarCommands } from "./toolbar.ts";
+import { Toolbar } from "./toolbar.ts";
 
 export type { Status, TubeEvents } from "./events.ts";
-
-const NO_WEBGL = "This browser does not show 3D pictures: WebGL 2 is missing or switched off.";
 
 /**
  * `<tube-viewer>`: shows a program's scene, and lets people look around in it.
@@ -38,8 +37,14 @@ export class TubeViewer extends HTMLElement {
   readonly #marks = new ConflictMarks();
   readonly #showing = new Showing(this.#screen(), new URL(import.meta.url).origin);
   readonly #parts: Parts = build(this.attachShadow({ mode: "open" }));
+  readonly #note = new StatusNote(this, this.#parts, (status, detail) => this.#say("tube-status", { status, detail }));
   readonly #overlay = new Overlay(this.#scene, this.#parts.labels);
-  readonly #toolbar = new Toolbar(this.#parts.toolbar, this.#commands());
+  readonly #commands = commandsOf(
+    this,
+    () => this.#attention.choose(undefined, false),
+    () => this.#scene.name,
+  );
+  readonly #toolbar = new Toolbar(this.#parts.toolbar, this.#commands);
   readonly #narration = new Narration(this.#scene, this.#parts.list, this.#parts.live, {
     highlight: (key) => this.#attention.hover(key),
     choose: (key, isMore) => this.#attention.choose(key, isMore),
@@ -52,7 +57,6 @@ export class TubeViewer extends HTMLElement {
   #stage: Stage | undefined;
   #mobile: Mobile | undefined;
   #framing: Framing | undefined;
-  #status: Status = "empty";
   #isPlanned = false;
   #isNew = true;
   #left = new AbortController();
@@ -95,7 +99,7 @@ export class TubeViewer extends HTMLElement {
   }
 
   get status(): Status {
-    return this.#status;
+    return this.#note.status;
   }
 
   connectedCallback(): void {
@@ -103,7 +107,7 @@ export class TubeViewer extends HTMLElement {
     try {
       this.#stage = new Stage(this.#parts.canvas);
     } catch {
-      this.#tell("refused", NO_WEBGL);
+      this.#note.tell("refused", NO_WEBGL);
       return;
     }
     this.#enter(this.#stage);
@@ -181,46 +185,30 @@ export class TubeViewer extends HTMLElement {
     stage.world.add(this.#scene.root, this.#marks.group);
     stage.onframe = (milliseconds) => this.#afterFrame(stage, milliseconds);
     this.#mobile = new Mobile(stage);
-    const framing = (this.#framing = new Framing(stage, this.#scene, this.#emphasis));
+    const framing = (this.#framing = new Framing(stage, this.#scene, this.#emphasis, () => coveredBy(this.#parts)));
     focused.addEventListener("keydown", () => framing.leave(), { signal });
-    listenToKeys(focused, stage, this.#commands(), signal);
+    listenToKeys(focused, stage, this.#commands, signal);
     watchPointer(canvas, signal, {
       hover: (place) => this.#attention.hover(place && this.#at(...place)),
       choose: (x, y, isMore) => this.#attention.choose(this.#at(x, y), isMore),
       fit: () => this.fit(),
     });
-    const sizes = new ResizeObserver(() => framing.resize());
-    sizes.observe(this);
-    signal.addEventListener("abort", () => sizes.disconnect());
-    for (const preference of [STILL, DARK]) {
-      matchMedia(preference).addEventListener("change", () => this.#dress(), { signal });
-    }
-  }
-
-  #commands(): ToolbarCommands {
-    return {
-      fit: () => this.fit(),
-      look: (view) => this.look(view),
-      clear: () => this.#attention.choose(undefined, false),
-      toggleOthers: () => this.#toggle("others", "hide"),
-      toggleMotion: () => this.#toggle("motion", "sway"),
-      stereo: (kind) => this.setAttribute("stereo", kind),
-      save: () => void this.#save(),
-      headset: () => void this.enterHeadset(),
-    };
+    surroundings(this, signal, () => framing.resize(), () => this.#dress());
   }
 
   #screen(): ConstructorParameters<typeof Showing>[0] {
     return {
-      detail: () => this.#detail(),
+      detail: () => this.#stage?.detail ?? { width: 256, height: 256 },
       whole: (loaded) => this.#showWhole(loaded),
       part: (loaded) => {
-        if (this.#scene.apply(loaded.gltf)) this.#taken(loaded, true);
+        if (!this.#scene.apply(loaded.gltf)) return;
+        if (loaded.gltf.cameras.length > 0) this.#framing?.learn(loaded.gltf);
+        this.#taken(loaded, true);
       },
-      status: (status, detail) => this.#tell(status, detail),
+      status: (status, detail) => this.#note.tell(status, detail),
       problem: (problem) => this.#say("tube-problem", { problem }),
       clearance: (clearance) => {
-        this.#marks.show(clearance.conflicts, this.#scene.box.getSize(new Vector3()).length() / 60);
+        this.#marks.show(clearance.conflicts, this.#scene.box);
         this.#stage?.invalidate();
         this.#say("tube-clearance", { clearance });
       },
@@ -250,9 +238,8 @@ export class TubeViewer extends HTMLElement {
     const service = this.getAttribute("service");
     if (service !== null) this.#showing.asker.base = new URL(service, location.href).href.replace(/\/+$/, "");
     this.#showing.isJudged = this.hasAttribute("conflicts");
-    if (!this.#showing.isJudged) this.#marks.show([], 0);
-    const [stored, document, src] = ["stored", "program", "src"].map((name) => this.getAttribute(name));
-    return stored ? { stored } : document ? { document } : src ? { src } : undefined;
+    if (!this.#showing.isJudged) this.#marks.show([], this.#scene.box);
+    return sourceOf(this);
   }
 
   #showWhole(loaded: Loaded): void {
@@ -267,23 +254,16 @@ export class TubeViewer extends HTMLElement {
   #taken(loaded: Loaded, isPart: boolean): void {
     const stage = this.#stage;
     if (stage === undefined) return;
-    const { things, box, size, name } = this.#scene;
+    const { box, name } = this.#scene;
     stage.box = box;
     this.#attention.revise();
     this.#light(stage);
     this.#emphasize();
     this.#narration.refresh();
     this.#parts.stage.setAttribute("aria-label", name || "Tubeloom");
-    const hyperedges = this.things.filter(({ shows }) => shows === "hyperedge").length;
-    this.#say("tube-load", {
-      items: things.size - hyperedges,
-      hyperedges,
-      ...size,
-      bytes: loaded.bytes,
-      isPart,
-      revision: loaded.revision,
-      milliseconds: performance.now() - loaded.asked,
-    });
+    const { bytes, revision, asked } = loaded;
+    const milliseconds = performance.now() - asked;
+    this.#say("tube-load", { ...this.#scene.size, bytes, isPart, revision, milliseconds });
   }
 
   #light(stage: Stage): void {
@@ -293,7 +273,7 @@ export class TubeViewer extends HTMLElement {
 
   #at(x: number, y: number): ThingKey | undefined {
     const { clientWidth, clientHeight } = this.#parts.canvas;
-    return this.#stage && this.#picker.at(x, y, clientWidth, clientHeight, this.#stage.camera);
+    return this.#stage && this.#picker.at(x, y, clientWidth, clientHeight, this.#stage.eye);
   }
 
   #emphasize(): void {
@@ -307,51 +287,12 @@ export class TubeViewer extends HTMLElement {
     const { clientWidth, clientHeight } = this.#parts.canvas;
     const { hovered, selected, isPlain } = this.#emphasis;
     const wanted = hovered === undefined ? selected : new Set([...selected, hovered]);
-    this.#overlay.update(stage.camera, clientWidth, clientHeight, wanted, isPlain);
-    this.#marks.face(stage.camera);
+    this.#overlay.update(stage.eye, clientWidth, clientHeight, wanted, isPlain);
+    this.#marks.face(stage.eye);
     this.#say("tube-frame", { milliseconds });
-  }
-
-  #detail(): Detail {
-    const { clientWidth, clientHeight } = this.#parts.canvas;
-    const ratio = this.#stage?.isSoftware ? 0.5 : Math.min(devicePixelRatio, 2);
-    const clamp = (size: number) => Math.min(Math.max(Math.round((size * ratio) / 256) * 256, 256), 4096);
-    return { width: clamp(clientWidth), height: clamp(clientHeight) };
-  }
-
-  async #save(): Promise<void> {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(await this.exportPicture());
-    link.download = `${this.#scene.name || "tubeloom"}.png`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-  }
-
-  #toggle(attribute: string, value: string): void {
-    if (this.getAttribute(attribute) === value) this.removeAttribute(attribute);
-    else this.setAttribute(attribute, value);
-  }
-
-  #tell(status: Status, detail: string): void {
-    const { progress, status: note } = this.#parts;
-    progress.hidden = status !== "loading";
-    note.hidden = detail === "";
-    if (note.textContent !== detail) note.textContent = detail;
-    if (status === this.#status && status !== "refused") return;
-    this.#status = status;
-    this.dataset["status"] = status;
-    this.#say("tube-status", { status, detail });
   }
 
   #say<Name extends keyof TubeEvents>(name: Name, detail: TubeEvents[Name]): void {
     this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true }));
   }
 }
-
-declare global {
-  interface HTMLElementTagNameMap {
-    "tube-viewer": TubeViewer;
-  }
-}
-
-customElements.define("tube-viewer", TubeViewer);

@@ -1,4 +1,5 @@
 import { Color, type Material, type Mesh, type MeshStandardMaterial } from "three";
+import { lengthOf } from "./objects.ts";
 import type { Part, Scene } from "./scene.ts";
 import { keyOf, type ThingKey, type ThingName } from "./things.ts";
 
@@ -135,10 +136,6 @@ function lit(material: Material): Material {
   copy.emissive = copy.vertexColors ? new Color(0x333333) : copy.color.clone();
   copy.emissiveIntensity = 0.45;
   return copy;
-}
-
-function lengthOf({ geometry }: Mesh): number {
-  return geometry.index?.count ?? geometry.getAttribute("position").count;
 }
 
 /** Whether nothing of a mesh has been taken away. */

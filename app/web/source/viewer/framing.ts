@@ -1,6 +1,6 @@
-import { PerspectiveCamera, type Vector3 } from "three";
+import { OrthographicCamera, type Vector3 } from "three";
 import type { GLTF } from "three/addons/loaders/GLTFLoader.js";
-import { directionFrom, directionOf } from "./camera.ts";
+import { directionFrom, directionOf, isUnder, poseAround, type Corner, type Pose } from "./camera.ts";
 import type { Emphasis } from "./emphasis.ts";
 import type { Scene } from "./scene.ts";
 import type { Stage } from "./stage.ts";
@@ -15,16 +15,22 @@ const VIEWS: Record<string, readonly [number, number, number]> = {
 
 const USUAL_DIRECTION = directionFrom([0.2, -1, 1]);
 
+/** On a picture that is lower, the toolbar may be over it. */
+const MOST_COVERED = 0.25;
+
 /** Chooses where to look from, so that all is seen that is not hidden. */
 export class Framing {
   readonly #stage: Stage;
   readonly #scene: Scene;
   readonly #emphasis: Emphasis;
+  readonly #covered: () => Corner | undefined;
   /** The direction in which the document has its camera. */
   #given = USUAL_DIRECTION;
   #isFitted = true;
 
-  constructor(stage: Stage, scene: Scene, emphasis: Emphasis) {
+  /** `covered` tells of what is under the toolbar. */
+  constructor(stage: Stage, scene: Scene, emphasis: Emphasis, covered: () => Corner | undefined) {
+    this.#covered = covered;
     [this.#stage, this.#scene, this.#emphasis] = [stage, scene, emphasis];
     stage.controls.addEventListener("start", () => this.leave());
   }
@@ -48,7 +54,8 @@ export class Framing {
 
   /** Learn how a file has its camera. */
   learn({ cameras: [camera] }: GLTF): void {
-    this.#given = camera instanceof PerspectiveCamera ? directionOf(camera) : USUAL_DIRECTION;
+    this.#given = camera ? directionOf(camera) : USUAL_DIRECTION;
+    this.#stage.isParallel = camera instanceof OrthographicCamera;
   }
 
   /** Somebody has chosen where to look from. */
@@ -66,7 +73,15 @@ export class Framing {
     const { selected, others } = this.#emphasis;
     const isPart = selected.size > 0 && others === "hide";
     const corners = isPart ? this.#scene.cornersOf(selected) : this.#scene.cornersOf();
-    this.#stage.look(this.#stage.around(corners, direction), when);
+    this.#stage.look(this.#around(corners, direction), when);
     this.#isFitted = true;
+  }
+
+  /** From where all is just seen; if a part of it were under the toolbar, all goes below that. */
+  #around(corners: readonly Vector3[], direction: Vector3): Pose {
+    const [lens, covered] = [this.#stage.lens, this.#covered()];
+    const pose = poseAround(corners, direction, lens);
+    if (covered === undefined || !isUnder(corners, pose, lens, covered)) return pose;
+    return poseAround(corners, direction, lens, Math.min(covered.bottom, MOST_COVERED));
   }
 }

@@ -1,4 +1,4 @@
-import { Box3, Vector3, type Camera, type PerspectiveCamera } from "three";
+import { Box3, Vector3, type Camera } from "three";
 import { cornersOf } from "./camera.ts";
 import type { Scene } from "./scene.ts";
 import { titleOf, type Thing, type ThingKey } from "./things.ts";
@@ -39,7 +39,7 @@ export class Overlay {
    * `isShown` says so.
    */
   update(
-    camera: PerspectiveCamera,
+    camera: Camera,
     width: number,
     height: number,
     wanted: ReadonlySet<ThingKey>,
@@ -64,7 +64,7 @@ export class Overlay {
   }
 
   #places(
-    camera: PerspectiveCamera,
+    camera: Camera,
     width: number,
     height: number,
     wanted: ReadonlySet<ThingKey>,

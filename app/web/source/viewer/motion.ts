@@ -1,4 +1,5 @@
 import { Vector3 } from "three";
+import { tangentOf } from "./camera.ts";
 import type { Mover, Stage } from "./stage.ts";
 
 /** How the picture moves by itself: a little movement shows depth better than two eyes do. */
@@ -75,7 +76,7 @@ export function approach(stage: Stage, factor: number): void {
 /** Moves the camera and what it looks at: by shares of the picture's height, right and up. */
 export function shift(stage: Stage, right: number, up: number): void {
   const { position, target } = stage.pose;
-  const height = 2 * position.distanceTo(target) * Math.tan((stage.camera.fov * Math.PI) / 360);
+  const height = 2 * position.distanceTo(target) * tangentOf(stage.camera);
   const [x, y] = [new Vector3(), new Vector3()];
   stage.camera.matrixWorld.extractBasis(x, y, new Vector3());
   const step = x.multiplyScalar(right * height).addScaledVector(y, up * height);

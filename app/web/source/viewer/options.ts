@@ -2,6 +2,7 @@ import { OTHERS, type Others } from "./emphasis.ts";
 import { LABELS, type Labels } from "./labels.ts";
 import { SHADOWS, type Shadows } from "./lighting.ts";
 import { MOTIONS, type Motion } from "./motion.ts";
+import type { Source } from "./showing.ts";
 import { STEREO, type Stereo } from "./stereo.ts";
 
 /** Attributes that say what is shown; all others say how. */
@@ -45,6 +46,12 @@ export function optionsOf(element: Element): Options {
     isStill: matchMedia(STILL).matches,
     hasToolbar: element.hasAttribute("toolbar"),
   };
+}
+
+/** What a viewer is to show, by its attributes. */
+export function sourceOf(element: Element): Source | undefined {
+  const [stored, document, src] = ["stored", "program", "src"].map((name) => element.getAttribute(name));
+  return stored ? { stored } : document ? { document } : src ? { src } : undefined;
 }
 
 function oneOf<Value extends string>(

@@ -1,4 +1,6 @@
+import type { Corner } from "./camera.ts";
 import { HELP } from "./keyboard.ts";
+import { DARK, STILL } from "./options.ts";
 import { STYLES } from "./styles.ts";
 
 /** What the element is made of. */
@@ -45,6 +47,21 @@ export function build(shadow: ShadowRoot): Parts {
   const live = make("p", { id: "live", class: "unseen", "aria-live": "polite" });
   shadow.replaceChildren(stage, progress, status, toolbar, list, help, live);
   return { stage, canvas, labels, progress, status, toolbar, list, live };
+}
+
+/** What of the picture is under the toolbar. */
+export function coveredBy({ toolbar, canvas }: Parts): Corner | undefined {
+  if (toolbar.hidden || canvas.clientHeight === 0) return undefined;
+  const bottom = toolbar.offsetTop + toolbar.offsetHeight;
+  return { left: toolbar.offsetLeft / canvas.clientWidth, bottom: bottom / canvas.clientHeight };
+}
+
+/** Tells of another size, and of other preferences of whoever looks, until `signal` is aborted. */
+export function surroundings(element: Element, signal: AbortSignal, resized: () => void, preferred: () => void): void {
+  const sizes = new ResizeObserver(resized);
+  sizes.observe(element);
+  signal.addEventListener("abort", () => sizes.disconnect());
+  for (const preference of [STILL, DARK]) matchMedia(preference).addEventListener("change", preferred, { signal });
 }
 
 function make<Tag extends "div" | "p" | "canvas">(

@@ -1,16 +1,8 @@
-import {
-  Box3,
-  Group,
-  Light,
-  Matrix4,
-  Mesh,
-  Vector3,
-  type Material,
-  type Object3D,
-} from "three";
+import { Box3, Group, Matrix4, Vector3, type Mesh, type Object3D } from "three";
 import type { GLTF } from "three/addons/loaders/GLTFLoader.js";
 import { cornersOf } from "./camera.ts";
 import { canShare, merged, MOST_MESHES, type Piece } from "./merging.ts";
+import { free, isEmptied, lengthOf, lightsOf, meshesOf, thingsOf } from "./objects.ts";
 import { simplify } from "./plain.ts";
 import { keyOf, type Thing, type ThingKey, type ThingName } from "./things.ts";
 
@@ -63,7 +55,7 @@ export class Scene {
     for (const each of thingsOf(gltf.scene)) this.remove(each);
     // It brings the same lights once more.
     for (const light of lightsOf(gltf.scene)) light.removeFromParent();
-    for (const emptied of this.root.children.filter((part) => !hasMeshes(part) && !hasLights(part))) {
+    for (const emptied of this.root.children.filter(isEmptied)) {
       emptied.removeFromParent();
     }
     this.root.add(gltf.scene);
@@ -149,11 +141,12 @@ export class Scene {
     return found;
   }
 
-  /** How many triangles there are, and how many calls draw them. */
-  get size(): { triangles: number; calls: number } {
-    let triangles = 0;
-    for (const { geometry } of this.meshes.keys()) triangles += lengthOf(geometry) / 3;
-    return { triangles, calls: this.meshes.size };
+  /** How much there is: triangles, too, and the calls that draw them. */
+  get size(): { items: number; hyperedges: number; triangles: number; calls: number } {
+    let [triangles, hyperedges] = [0, 0];
+    for (const { shows } of this.things.values()) if (shows === "hyperedge") hyperedges += 1;
+    for (const mesh of this.meshes.keys()) triangles += lengthOf(mesh) / 3;
+    return { items: this.things.size - hyperedges, hyperedges, triangles, calls: this.meshes.size };
   }
 
   /** The hyperedges that join an item, and the items that a hyperedge joins. */
@@ -196,7 +189,7 @@ export class Scene {
     for (const { mesh, key } of isCrowd ? pieces.filter((piece) => !canShare(piece)) : pieces) {
       mesh.geometry.computeBoundingBox();
       const box = mesh.geometry.boundingBox ?? new Box3();
-      this.#add({ mesh, start: 0, count: lengthOf(mesh.geometry), box, key });
+      this.#add({ mesh, start: 0, count: lengthOf(mesh), box, key });
     }
     for (const part of merged(shared)) {
       this.#add(part);
@@ -246,52 +239,6 @@ export class Scene {
     if (shared) shared.push(part);
     else this.meshes.set(part.mesh, [part]);
   }
-}
-
-/** The meshes that are an object, or hang directly on it: one for each of its materials. */
-function meshesOf(object: Object3D): Mesh[] {
-  return [object, ...object.children].filter(
-    (each): each is Mesh =>
-      each instanceof Mesh && (each === object || each.userData["shows"] === undefined),
-  );
-}
-
-function thingsOf(scene: Object3D): ThingName[] {
-  const found: ThingName[] = [];
-  scene.traverse(({ userData }) => {
-    const { shows } = userData as { shows?: string };
-    if (shows === "item" || shows === "hyperedge") found.push(userData as ThingName);
-    for (const each of (userData["hyperedges"] as Thing[] | undefined) ?? []) {
-      found.push({ shows: "hyperedge", id: each.id });
-    }
-  });
-  return found;
-}
-
-function hasMeshes(object: Object3D): boolean {
-  return object instanceof Mesh || object.children.some(hasMeshes);
-}
-
-function hasLights(object: Object3D): boolean {
-  return lightsOf(object).length > 0;
-}
-
-function lightsOf(scene: Object3D): Light[] {
-  const found: Light[] = [];
-  scene.traverse((object) => {
-    if (object instanceof Light) found.push(object);
-  });
-  return found;
-}
-
-function lengthOf(geometry: Mesh["geometry"]): number {
-  return geometry.index?.count ?? geometry.getAttribute("position").count;
-}
-
-function free(mesh: Mesh): void {
-  mesh.geometry.dispose();
-  const materials: Material[] = Array.isArray(mesh.material) ? mesh.material : [mesh.material];
-  for (const material of materials) material.dispose();
 }
 
 /** At so many corners of a thing an anchor is looked for. */

@@ -1,7 +1,9 @@
-import { Box3, PerspectiveCamera, Scene as World, Vector3, WebGLRenderer } from "three";
+import { Box3, PerspectiveCamera, Scene as World, Vector3, WebGLRenderer, type OrthographicCamera } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Lighting } from "./lighting.ts";
-import { poseAround, type Pose } from "./camera.ts";
+import type { Lens, Pose } from "./camera.ts";
+import type { Detail } from "./loading.ts";
+import { ParallelLens } from "./parallel.ts";
 import { drawerOf, type Drawer, type Stereo } from "./stereo.ts";
 import { warm } from "./warming.ts";
 
@@ -13,6 +15,7 @@ const MOVE_SECONDS = 0.35;
 /** Three's world on a canvas: draws a frame where something has changed, and none otherwise. */
 export class Stage {
   readonly world = new World();
+  /** Says where one looks from; headsets and stereo draw with it in any case. */
   readonly camera = new PerspectiveCamera(30, 4 / 3, 0.1, 1000);
   readonly renderer: WebGLRenderer;
   /** Whether the processor draws, and not a graphics card. */
@@ -25,6 +28,9 @@ export class Stage {
   /** Around all that is shown; depths are chosen by it. */
   box = new Box3();
   reducedMotion = false;
+  /** Whether what is far shall be drawn as large as what is near, where one picture is drawn. */
+  isParallel = false;
+  readonly #parallel = new ParallelLens();
   readonly #canvas: HTMLCanvasElement;
   #drawer: Drawer;
   #dirty = false;
@@ -99,9 +105,22 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Where to look from, in that direction (y up), to see all of these points. */
-  around(points: readonly Vector3[], direction: Vector3): Pose {
-    return poseAround(points, direction, this.camera.fov, this.camera.aspect * this.#drawer.share);
+  /** The camera that the picture is drawn with. */
+  get eye(): PerspectiveCamera | OrthographicCamera {
+    return this.lens.isParallel ? this.#parallel.camera : this.camera;
+  }
+
+  get lens(): Lens {
+    const { share, isSingle } = this.#drawer;
+    return { fov: this.camera.fov, aspect: this.camera.aspect * share, isParallel: this.isParallel && isSingle };
+  }
+
+  /** How large a picture the tubes are to be made for. */
+  get detail(): Detail {
+    const { clientWidth, clientHeight } = this.#canvas;
+    const ratio = this.isSoftware ? 0.5 : Math.min(devicePixelRatio, 2);
+    const clamp = (size: number) => Math.min(Math.max(Math.round((size * ratio) / 256) * 256, 256), 4096);
+    return { width: clamp(clientWidth), height: clamp(clientHeight) };
   }
 
   /** Draw now, and copy what is seen. `scale` makes it so many times as large. */
@@ -170,7 +189,12 @@ export class Stage {
 
   #draw(): void {
     this.#chooseDepths();
-    this.#drawer.render(this.world, this.camera);
+    if (this.lens.isParallel) {
+      this.#parallel.follow(this.camera, this.controls.target, this.box);
+      this.renderer.render(this.world, this.#parallel.camera);
+    } else {
+      this.#drawer.render(this.world, this.camera);
+    }
   }
 
   /** As narrow as possible around what there is: the depth buffer is coarse. */

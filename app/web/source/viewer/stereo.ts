@@ -9,6 +9,8 @@ export type Stereo = (typeof STEREO)[number];
 export interface Drawer {
   /** How much of the canvas's width one picture has. */
   readonly share: number;
+  /** Whether it draws one picture, whatever the camera. */
+  readonly isSingle: boolean;
   setSize(width: number, height: number): void;
   render(world: Scene, camera: PerspectiveCamera): void;
   dispose(): void;
@@ -25,6 +27,7 @@ export function drawerOf(kind: Stereo, renderer: WebGLRenderer): Drawer {
     case "none":
       return {
         share: 1,
+        isSingle: true,
         setSize: (width, height) => renderer.setSize(width, height, false),
         render: (world, camera) => renderer.render(world, camera),
         dispose: () => undefined,
@@ -37,6 +40,7 @@ const EYE_SHARE = 1 / 30;
 
 class RedAndCyan implements Drawer {
   readonly share = 1;
+  readonly isSingle = false;
   readonly #renderer: WebGLRenderer;
   readonly #effect: AnaglyphEffect;
 
@@ -64,6 +68,7 @@ class RedAndCyan implements Drawer {
 
 class SideBySide implements Drawer {
   readonly share = 0.5;
+  readonly isSingle = false;
   readonly #renderer: WebGLRenderer;
   readonly #isCrossed: boolean;
   readonly #eyes = new StereoCamera();
