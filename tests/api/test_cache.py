@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-import sqlite3
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import httpx
 import pytest
 
 from tests.api.event_streams import events
-from tests.service import SMALL, Service, fresh, large_program, running_service, until
+from tests.service import SMALL, Service, fresh, large_program, until
 
 
 def named(name: str) -> bytes:
@@ -79,18 +77,3 @@ def test_an_answer_that_is_there_comes_as_the_only_event(client: httpx.Client) -
     assert event.name == "answer"
     assert event.data["headers"]["ETag"] == whole.headers["etag"]
     assert event.data["headers"]["Tubeloom-Cache"] == "hit"
-
-
-def test_answers_outlive_a_service_that_is_killed(tmp_path: Path) -> None:
-    document = named("kept")
-    with running_service(tmp_path) as service, service.client() as client:
-        first = client.post("/v1/render", content=document)
-        database = sqlite3.connect(tmp_path / "data" / "tubeloom.db")
-        until(lambda: database.execute("SELECT key FROM results").fetchall())
-        database.close()
-        service.process.kill()
-    # Nobody has to work for it.
-    with running_service(tmp_path, warm=False) as service, service.client() as client:
-        again = client.post("/v1/render", content=document)
-    assert again.headers["tubeloom-cache"] == "hit"
-    assert again.content == first.content

@@ -1,4 +1,6 @@
 import asyncio
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,16 +20,20 @@ def test_the_service_lives(client: httpx.Client) -> None:
 
 
 def test_the_service_is_ready_and_can_draw(client: httpx.Client) -> None:
-    # After the first worker it is ready; whoever asks early sees one of two.
-    until(lambda: client.get("/readyz").json()["workers"]["warm"] == 2)
-    response = client.get("/readyz")
-    assert response.status_code == 200
-    assert response.json() == {
+    # After the first worker it is ready, whoever asks early sees one of two; and on a machine that
+    # has much else to do the first pixel takes longer than whoever asks has patience for.
+    until(lambda: both_have_drawn(client))
+    assert client.get("/readyz").json() == {
         "status": "ready",
         "workers": {"wanted": 2, "warm": 2, "problem": None},
         "draft": {"available": True, "problem": None},
         "database": {"available": True, "problem": None},
     }
+
+
+def both_have_drawn(client: httpx.Client) -> bool:
+    response = client.get("/readyz")
+    return response.status_code == 200 and bool(response.json()["workers"]["warm"] == 2)
 
 
 def figure(client: httpx.Client, name: str) -> float:
@@ -43,55 +49,72 @@ def test_readiness_is_tried_out_by_a_worker_but_not_for_everyone_who_asks(
     client: httpx.Client,
 ) -> None:
     before = works(client)
-    until(lambda: (client.get("/readyz"), works(client) > before)[1], 20)
-    after = works(client)
+    until(lambda: client.get("/readyz").status_code == 200 and works(client) > before)
+    after, began = works(client), time.monotonic()
     for _ in range(20):
         assert client.get("/readyz").status_code == 200
-    assert works(client) <= after + 1
+    periods = (time.monotonic() - began) / Settings().examine_seconds
+    assert works(client) <= after + 1 + periods
 
 
-def readiness(service: Service, status: int) -> dict[str, Any]:
+@pytest.fixture(scope="module")
+def examined(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Service, Path]]:
+    """A service that is examined again after each second, and the folder of its data."""
+    folder = tmp_path_factory.mktemp("examined")
+    with running_service(folder, deadline_seconds=3, examine_seconds=1) as service:
+        yield service, folder / "data"
+
+
+def readiness(service: Service, shows: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+    """What it says of itself as soon as that shows what it should."""
     with service.client() as client:
 
-        def ask() -> httpx.Response | None:
+        def ask() -> dict[str, Any] | None:
             response = client.get("/readyz")
-            return response if response.status_code == status else None
+            found: dict[str, Any] = response.json()
+            assert response.status_code == (200 if found["status"] == "ready" else 503)
+            return found if shows(found) else None
 
-        found: dict[str, Any] = until(ask, 60).json()
-    return found
+        return until(ask)
 
 
-def test_a_worker_that_hangs_is_noticed_counted_and_replaced(tmp_path: Path) -> None:
-    with running_service(tmp_path, deadline_seconds=3, examine_seconds=1) as service:
-        (worker,) = service.workers()
-        worker.suspend()
-        found = readiness(service, 503)
-        assert found["status"] == "broken"
-        assert "pixel" in str(found["workers"]["problem"])
-        assert readiness(service, 200)["workers"]["problem"] is None
-        (another,) = service.workers()
-        assert another != worker
-        another.suspend()
-        with service.client() as client:
-            lost = lost_workers(client)
-            assert lost >= 1
-            assert client.post("/v1/render", json=SMALL).status_code == 504
-            assert lost_workers(client) > lost
+def is_ready(found: dict[str, Any]) -> bool:
+    return bool(found["status"] == "ready")
+
+
+def test_a_worker_that_hangs_is_noticed_counted_and_replaced(
+    examined: tuple[Service, Path],
+) -> None:
+    service, _ = examined
+    (worker,) = service.workers()
+    worker.suspend()
+    found = readiness(service, lambda found: bool(found["workers"]["problem"]))
+    assert found["status"] == "broken"
+    assert "pixel" in str(found["workers"]["problem"])
+    assert readiness(service, is_ready)["workers"]["problem"] is None
+    (another,) = service.workers()
+    assert another != worker
+    another.suspend()
+    with service.client() as client:
+        lost = lost_workers(client)
+        assert lost >= 1
+        assert client.post("/v1/render", json=SMALL).status_code == 504
+        assert lost_workers(client) > lost
 
 
 def lost_workers(client: httpx.Client) -> float:
     return figure(client, "tubeloom_workers_lost_total")
 
 
-def test_a_database_that_cannot_be_read_is_noticed(tmp_path: Path) -> None:
-    with running_service(tmp_path, warm=False, examine_seconds=1) as service:
-        assert readiness(service, 200)["database"] == {"available": True, "problem": None}
-        for file in (tmp_path / "data").glob("tubeloom.db*"):
-            file.write_bytes(b"not a database" * 1000)
-        found = readiness(service, 503)
-        assert found["status"] == "broken"
-        assert found["database"]["available"] is False
-        assert found["database"]["problem"]
+# Nothing can be done with that service afterwards.
+def test_a_database_that_cannot_be_read_is_noticed(examined: tuple[Service, Path]) -> None:
+    service, data = examined
+    assert readiness(service, is_ready)["database"] == {"available": True, "problem": None}
+    for file in data.glob("tubeloom.db*"):
+        file.write_bytes(b"not a database" * 1000)
+    found = readiness(service, lambda found: not found["database"]["available"])
+    assert found["status"] == "broken"
+    assert found["database"]["problem"]
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,12 @@
-"""Jobs end, whoever dies in the midst of them."""
+"""Jobs end, whoever dies in the midst of them; and answers are kept."""
 
 from __future__ import annotations
 
 import json
 import signal
+import sqlite3
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,7 @@ class Home:
     """A service that may be started again, with all that it had stored."""
 
     def __init__(self, folder: Path) -> None:
+        self.data = folder / "data"
         self._folder = folder
         self._running = ExitStack()
         self.service = self._started(warm=True)
@@ -83,9 +85,14 @@ def test_a_job_whose_workers_all_die_fails(home: Home) -> None:
         assert client.get("/healthz").status_code == 200
 
 
-def test_a_job_outlives_the_service_that_is_killed_and_its_workers_do_not(home: Home) -> None:
+def test_jobs_and_answers_outlive_the_service_that_is_killed_and_its_workers_do_not(
+    home: Home,
+) -> None:
     killed, document = home.service, program("left behind")
     with killed.client() as client:
+        answered = client.post("/v1/render", json=document)
+        assert answered.headers["tubeloom-cache"] == "miss"
+        until(lambda: is_scene_kept(home.data))
         jobs = [start(client, SECONDS, document) for _ in range(2)]
         at_work(client, jobs[0])
         waiting = start(client, PICTURE, program("left waiting"))
@@ -101,6 +108,17 @@ def test_a_job_outlives_the_service_that_is_killed_and_its_workers_do_not(home: 
             ("done", 1),
         ]
         assert len({client.get(f"{job}/result").content for job in jobs}) == 1
+        # Nobody had to work for it again.
+        again = client.post("/v1/render", json=document)
+        assert again.headers["tubeloom-cache"] == "hit"
+        assert again.content == answered.content
+
+
+def is_scene_kept(data: Path) -> bool:
+    """Whether the database knows of a scene: an answer is written after it was given."""
+    with closing(sqlite3.connect(data / "tubeloom.db")) as database:
+        found = database.execute("SELECT key FROM results WHERE media_type = 'model/gltf-binary'")
+        return bool(found.fetchall())
 
 
 def test_a_service_that_ends_in_good_order_leaves_its_jobs_to_the_next(home: Home) -> None:

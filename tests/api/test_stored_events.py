@@ -140,7 +140,7 @@ def test_two_services_on_one_database_tell_the_same_and_end_when_asked_to(tmp_pa
     (tmp_path / "second").mkdir()
     database = f"sqlite:///{tmp_path / 'shared.db'}"
     with (
-        running_service(tmp_path, database=database) as first,
+        running_service(tmp_path, database=database, warm=False) as first,
         running_service(tmp_path / "second", database=database, warm=False) as second,
         first.client() as writer,
     ):
