@@ -284,6 +284,8 @@ test("where tubes touch there are marks", async () => {
   const marks = pixels(await seen(page), isMark);
   assert.ok(marks.length > 40, `${marks.length} pixels of marks`);
   const [left, right] = sidesOf(marks);
+  const [top, bottom] = sidesOf(marks.map(([x, y]) => [y, x]));
+  assert.ok(Math.abs(right - left - (bottom - top)) < 3, "a ring faces whoever looks");
   assert.ok(Math.abs((left + right) / 2 - 350) < 30, `marks from ${left} to ${right}`);
   await page.evaluate(() => document.querySelector("tube-viewer").removeAttribute("conflicts"));
   assert.equal(pixels(await seen(page), isMark).length, 0);

@@ -54,20 +54,16 @@ export function poseAround(points: readonly Vector3[], direction: Vector3, lens:
   return { position: target.clone().addScaledVector(outward, distance), target };
 }
 
-/** Whether anything is seen in a corner of the picture, by the corners of boxes, eight of each. */
-export function isUnder(boxes: readonly Vector3[], { position, target }: Pose, lens: Lens, { left, bottom }: Corner): boolean {
+/** Where points are on the picture, in shares of its width and height, from its upper left corner. */
+export function placing({ position, target }: Pose, lens: Lens): (point: Vector3) => [number, number] {
   const arm = position.clone().sub(target);
   const { right, up, outward } = axesOf(arm);
   const [distance, tangent] = [arm.length(), tangentOf(lens)];
-  let [most, highest] = [-Infinity, -Infinity];
-  return boxes.some((corner, number) => {
-    if (number % 8 === 0) [most, highest] = [-Infinity, -Infinity];
-    const place = corner.clone().sub(target);
-    const scale = tangent * (lens.isParallel ? distance : distance - place.dot(outward));
-    most = Math.max(most, place.dot(right) / (scale * lens.aspect));
-    highest = Math.max(highest, place.dot(up) / scale);
-    return number % 8 === 7 && (most + 1) / 2 > left && (1 - highest) / 2 < bottom;
-  });
+  return (point) => {
+    const place = point.clone().sub(target);
+    const scale = 2 * tangent * (lens.isParallel ? distance : distance - place.dot(outward));
+    return [0.5 + place.dot(right) / (scale * lens.aspect), 0.5 - place.dot(up) / scale];
+  };
 }
 
 /** Half of a picture's height, seen from a distance of one. */

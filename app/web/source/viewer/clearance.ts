@@ -1,4 +1,4 @@
-import { Group, Mesh, MeshBasicMaterial, TorusGeometry, Vector3, type Box3, type Camera } from "three";
+import { Group, Mesh, MeshBasicMaterial, TorusGeometry, Vector3, type Box3 } from "three";
 import type { Layout } from "tubeloom-client";
 import { FROM_DOCUMENT } from "./scene.ts";
 
@@ -23,12 +23,12 @@ export class ConflictMarks {
       ring.position.copy(new Vector3(x, y, z).applyMatrix4(FROM_DOCUMENT));
       ring.scale.setScalar(radius);
       ring.renderOrder = 10;
+      ring.onBeforeRender = (_renderer, _scene, camera) => {
+        ring.quaternion.copy(camera.quaternion);
+        ring.updateMatrixWorld();
+      };
       this.group.add(ring);
     }
-  }
-
-  face(camera: Camera): void {
-    for (const ring of this.group.children) ring.quaternion.copy(camera.quaternion);
   }
 
   dispose(): void {

@@ -288,7 +288,6 @@ export class TubeViewer extends HTMLElement {
     const { hovered, selected, isPlain } = this.#emphasis;
     const wanted = hovered === undefined ? selected : new Set([...selected, hovered]);
     this.#overlay.update(stage.eye, clientWidth, clientHeight, wanted, isPlain);
-    this.#marks.face(stage.eye);
     this.#say("tube-frame", { milliseconds });
   }
 

@@ -1,8 +1,8 @@
 import { OrthographicCamera, type Vector3 } from "three";
 import type { GLTF } from "three/addons/loaders/GLTFLoader.js";
-import { directionFrom, directionOf, isUnder, poseAround, type Corner, type Pose } from "./camera.ts";
+import { directionFrom, directionOf, placing, poseAround, type Corner, type Pose } from "./camera.ts";
 import type { Emphasis } from "./emphasis.ts";
-import type { Scene } from "./scene.ts";
+import { cornersOn, type Part, type Scene } from "./scene.ts";
 import type { Stage } from "./stage.ts";
 
 const VIEWS: Record<string, readonly [number, number, number]> = {
@@ -72,16 +72,35 @@ export class Framing {
   #look(direction: Vector3, when: "gently" | "at once"): void {
     const { selected, others } = this.#emphasis;
     const isPart = selected.size > 0 && others === "hide";
-    const corners = isPart ? this.#scene.cornersOf(selected) : this.#scene.cornersOf();
-    this.#stage.look(this.#around(corners, direction), when);
+    const boxes = isPart ? this.#scene.boxesOf(selected) : this.#scene.boxesOf();
+    this.#stage.look(this.#around(boxes, direction), when);
     this.#isFitted = true;
   }
 
   /** From where all is just seen; if a part of it were under the toolbar, all goes below that. */
-  #around(corners: readonly Vector3[], direction: Vector3): Pose {
+  #around(boxes: readonly Box[], direction: Vector3): Pose {
     const [lens, covered] = [this.#stage.lens, this.#covered()];
+    const corners = boxes.flatMap((box) => box.corners);
     const pose = poseAround(corners, direction, lens);
-    if (covered === undefined || !isUnder(corners, pose, lens, covered)) return pose;
+    if (covered === undefined || !reaches(boxes, placing(pose, lens), covered)) return pose;
     return poseAround(corners, direction, lens, Math.min(covered.bottom, MOST_COVERED));
   }
+}
+
+interface Box {
+  part: Part;
+  corners: readonly Vector3[];
+}
+
+/** Whether anything is seen in a corner of the picture. */
+function reaches(boxes: readonly Box[], place: (point: Vector3) => [number, number], { left, bottom }: Corner): boolean {
+  return boxes.some(({ part, corners }) => {
+    const places = corners.map(place);
+    // A slanted box is seen where there is nothing of what is in it.
+    if (places.every(([x]) => x < left) || places.every(([, y]) => y > bottom)) return false;
+    return cornersOn(part).some((corner) => {
+      const [x, y] = place(corner);
+      return x > left && y < bottom;
+    });
+  });
 }

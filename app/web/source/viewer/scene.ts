@@ -115,30 +115,24 @@ export class Scene {
     const middle = this.boxOf([key]).getCenter(new Vector3());
     let anchor: Vector3 | undefined;
     let nearest = Infinity;
-    const corner = new Vector3();
-    for (const { mesh, start, count } of this.parts.get(key) ?? []) {
-      const { index } = mesh.geometry;
-      const positions = mesh.geometry.getAttribute("position");
-      const step = Math.max(1, Math.floor(count / ANCHOR_SAMPLES));
-      for (let at = start; at < start + count; at += step) {
-        corner.fromBufferAttribute(positions, index ? index.getX(at) : at).applyMatrix4(mesh.matrixWorld);
+    for (const part of this.parts.get(key) ?? []) {
+      for (const corner of cornersOn(part)) {
         const distance = corner.distanceToSquared(middle);
-        if (distance < nearest) [nearest, anchor] = [distance, corner.clone()];
+        if (distance < nearest) [nearest, anchor] = [distance, corner];
       }
     }
     return anchor;
   }
 
-  /** The corners of boxes around some things, or around all, in the space of the picture. */
-  cornersOf(keys: Iterable<ThingKey> = this.parts.keys()): Vector3[] {
+  /** The parts of some things, or of all, each with the corners of its box in the space of the picture. */
+  boxesOf(keys: Iterable<ThingKey> = this.parts.keys()): { part: Part; corners: Vector3[] }[] {
     this.root.updateMatrixWorld();
-    const found: Vector3[] = [];
-    for (const key of keys) {
-      for (const { mesh, box } of this.parts.get(key) ?? []) {
-        for (const corner of cornersOf(box)) found.push(corner.applyMatrix4(mesh.matrixWorld));
-      }
-    }
-    return found;
+    return [...keys].flatMap((key) =>
+      (this.parts.get(key) ?? []).map((part) => {
+        const corners = cornersOf(part.box).map((corner) => corner.applyMatrix4(part.mesh.matrixWorld));
+        return { part, corners };
+      }),
+    );
   }
 
   /** How much there is: triangles, too, and the calls that draw them. */
@@ -241,8 +235,19 @@ export class Scene {
   }
 }
 
-/** At so many corners of a thing an anchor is looked for. */
-const ANCHOR_SAMPLES = 500;
+/** Some corners of a part's triangles, from all over it, in the space of the picture. */
+export function cornersOn({ mesh, start, count }: Part): Vector3[] {
+  const { index } = mesh.geometry;
+  const positions = mesh.geometry.getAttribute("position");
+  const found: Vector3[] = [];
+  for (let at = start; at < start + count; at += Math.max(1, Math.floor(count / MOST_SAMPLES))) {
+    const corner = new Vector3().fromBufferAttribute(positions, index ? index.getX(at) : at);
+    found.push(corner.applyMatrix4(mesh.matrixWorld));
+  }
+  return found;
+}
+
+const MOST_SAMPLES = 500;
 
 /** A picture's space has y up; documents have z up. */
 export const FROM_DOCUMENT = new Matrix4().makeRotationX(-Math.PI / 2);
