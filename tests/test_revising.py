@@ -176,7 +176,16 @@ def may_move(edit: Json, before: Program, after: Program) -> set[str]:
     rows = {item.id for item in after.items if item.kind in ROWS and after.notation == "sparcl"}
     beside = {name for name in up if up[name] in rows and up[name] in core}
     beside |= line_mates(core, before) | line_mates(core, after)
-    return core | beside
+    return core | beside | left_helices(before, after)
+
+
+def left_helices(before: Program, after: Program) -> set[str]:
+    """What climbed with others that are gone stands on the ground again."""
+    climbed, climb = (
+        {name for line in program.layout.constraints if line.type == "helix" for name in line.items}
+        for program in (before, after)
+    )
+    return (climbed - climb) & {item.id for item in after.items}
 
 
 ROWS = {"literal", "ntuple"}
@@ -497,11 +506,12 @@ def test_a_scene_of_what_changed_makes_the_old_scene_the_new_one(
 
 
 def without_detail(found: dict[str, Any]) -> dict[str, Any]:
-    """The same but for what a tube's fineness decides, which is another in a larger scene."""
+    """The same but for what the meshes' fineness decides, which is another in a larger scene."""
     return {
-        name: (place["extras"], [material for *_, material in parts])
-        if place["extras"]["shows"] == "hyperedge"
-        else (place, parts)
+        name: (
+            place["extras"] if place["extras"]["shows"] == "hyperedge" else place,
+            [material for *_, material in parts],
+        )
         for name, (place, parts) in found.items()
     }
 

@@ -48,15 +48,15 @@ def measure(
         if children:
             style = styles[number]
             lines = line_ups.get(number, [])
+            how = (lines, style.gap, style.arrangement)
             if stays(sized, number, children):
-                contents = _contain_more(
-                    sized, number, children, lines, style.gap, style.arrangement, rooms
-                )
+                contents = _contain_more(sized, number, children, *how, rooms)
                 grow(sized, number, children, contents)
+            elif sized[number].is_alike:
+                # None of its contents stands, but it does, and is as large as it was at least.
+                grow(sized, number, children, contain(sized, children, *how))
             else:
-                enclose(
-                    sized[number], contain(sized, children, lines, style.gap, style.arrangement)
-                )
+                enclose(sized[number], contain(sized, children, *how))
     lines = line_ups.get(-1, [])
     if stays(sized, -1, family.roots):
         roots = _contain_more(sized, -1, family.roots, lines, ROOT_GAP, "rows", rooms)
