@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from app.output.shells import refuse_too_many
 from app.program.model import Program
 from app.scene.assemble import assemble
 from app.scene.camera import view_of
-from app.scene.detail import tolerances
+from app.scene.detail import Detail
 from app.scene.scene import Scene
 from app.tubes.patches import patch_tubes
 from app.tubes.sweep import sweep
@@ -64,15 +65,17 @@ def stage(
     """Place, route, make tubes, assemble: everything between reading and writing.
 
     Where there is a ``layout`` already, it is shown. Tubes are what ``sweeping`` (`make_tubes`)
-    makes, no finer than shows in a picture ``height`` pixels high, where there is one.
+    makes. They and items are no finer than shows in a picture ``height`` pixels high, where there
+    is one.
     """
     laid = layout or lay_out(program, progress=progress)
     progress("making tubes", 0.4)
-    tolerance = _tolerance(laid, aspect, height)
-    tubes = (sweeping or make_tubes)(program, laid.routing, tolerance)
+    coarse = _coarseness(laid, aspect, height)
+    tubes = (sweeping or make_tubes)(program, laid.routing, coarse.tubes)
     progress("assembling the scene", 0.5)
     notation = load_notation(program.notation)
-    return Staged(laid, assemble(program, notation, laid.placement, tubes, aspect, laid.hues))
+    scene = assemble(program, notation, laid.placement, tubes, aspect, laid.hues, coarse.items)
+    return Staged(laid, scene)
 
 
 def stage_changes(layout: Layout, delta: Delta, aspect: float, height: int) -> Scene:
@@ -102,12 +105,13 @@ def stage_changes(layout: Layout, delta: Delta, aspect: float, height: int) -> S
         labels=tuple(placement.labels[number] for number in items),
         radii=placement.radii[hyperedges],
     )
-    tolerance = _tolerance(layout, aspect, height)
+    coarse = _coarseness(layout, aspect, height)
+    tolerance = coarse.tubes
     if isinstance(tolerance, np.ndarray):
         tolerance = tolerance[hyperedges]
     tubes = make_tubes(program, layout.routing.part(hyperedges), tolerance)
     notation = load_notation(program.notation)
-    scene = assemble(program, notation, shown, tubes, aspect, layout.hues[hyperedges])
+    scene = assemble(program, notation, shown, tubes, aspect, layout.hues[hyperedges], coarse.items)
     removed = {
         "items": list(delta.removed_items),
         "hyperedges": list(delta.removed_hyperedges),
@@ -146,10 +150,19 @@ def _make_bodies(
     return unite(plan, names, lambda share: progress("making tubes", 0.4 + 0.1 * share))
 
 
-def _tolerance(layout: Layout, aspect: float, height: int | None) -> float | Floats:
-    """How far meshes may be from their tubes: one for all, or one for each hyperedge, (h,)."""
+class _Coarseness(NamedTuple):
+    """How far meshes may be off: those of tubes, all or each of h hyperedges (h,); and of items."""
+
+    tubes: float | Floats
+    items: float
+
+
+def _coarseness(layout: Layout, aspect: float, height: int | None) -> _Coarseness:
+    """No more than shows in a picture ``height`` pixels high, where there is one."""
     routing, program = layout.routing, layout.program
     finest = TUBE_TOLERANCE * float(routing.radii.min(initial=1.0))
-    if height is None or not program.hyperedges:
-        return finest
-    return tolerances(layout.placement, routing, view_of(program), aspect, height, finest)
+    if height is None:
+        return _Coarseness(finest, 0.0)
+    detail = Detail.of(layout.placement, routing, view_of(program), aspect, height)
+    tubes = detail.tubes(finest) if program.hyperedges else finest
+    return _Coarseness(tubes, detail.items())

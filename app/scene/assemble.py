@@ -33,18 +33,19 @@ def assemble(
     tubes: Tubes | UnsweptTubes,
     aspect: float,
     hues: Indices | None = None,
+    coarseness: float = 0.0,
 ) -> Scene:
     """The scene of a program, framed for a picture of ``aspect`` (width over height).
 
     One node for each item and each hyperedge, in the order of the document, and one for the
     ground where the style wishes for it and there is something to stand on it. Where tubes are not
     swept yet, hyperedges are a crowd without nodes. ``hues`` (h,) say which colour of the palette
-    each hyperedge takes; left out, they take one after another. Raises `UnknownName` where there
-    is no such palette.
+    each hyperedge takes; left out, they take one after another. Items may be off by
+    ``coarseness`` (document units). Raises `UnknownName` where there is no such palette.
     """
     background = background_of(program)
     materials: dict[Material, int] = {}
-    items = item_nodes(program, notation, placement, materials)
+    items = item_nodes(program, notation, placement, materials, coarseness)
     nodes, around, crowd = items, _boxes(items), None
     of_crowd: Farthest | None = None
     if isinstance(tubes, Tubes):

@@ -1,6 +1,8 @@
-"""Level of detail: how far a tube's mesh may be from its tube before a picture shows it."""
+"""Level of detail: how far a mesh may be from what it stands for before a picture shows it."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,6 +13,7 @@ from app.placement.turning import matrices
 from app.program.model import View
 from app.scene.camera import axes_from, frame
 from app.scene.curve_reach import CurveReach, curve_boxes
+from app.scene.reach import farther_of
 from app.scene.scene import Camera
 
 UNSEEN = 0.1
@@ -24,31 +27,60 @@ flies up to it sees edges, but finds it where it should be."""
 _CORNERS = np.array([[i >> 2 & 1, i >> 1 & 1, i & 1] for i in range(8)])
 
 
-def tolerances(
-    placement: Placement, routing: Routing, view: View, aspect: float, height: int, finest: float
-) -> Floats:
-    """How far the tubes of each of h hyperedges may be off, (h,), in document units.
+@dataclass(frozen=True, slots=True, eq=False)
+class Detail:
+    """How far meshes may be off in a picture ``height`` pixels high that ``camera`` takes.
 
-    For a picture ``height`` pixels high of ``aspect`` (width over height): `UNSEEN` pixels where
-    the tube comes nearest to the camera, but not less than ``finest`` (document units), nor more
-    than `COARSEST` of its radius where that is more than ``finest``.
+    ``back`` is the unit vector from what is seen towards the camera.
     """
-    curves, items = CurveReach.of(routing), _item_corners(placement)
 
-    def farthest(way: Floats) -> Floats:
-        best = curves.farthest(way)
-        if len(items):
-            other: Floats = items[int(np.argmax(items @ way))]
-            best = other if other @ way > best @ way else best
-        return best
+    placement: Placement
+    routing: Routing
+    camera: Camera
+    back: Floats
+    height: int
 
-    camera = frame(farthest, view, aspect)
-    back = axes_from(view.from_).back
-    low, high = curve_boxes(routing).transpose(1, 0, 2)
-    nearest = (low + high) / 2 @ back + (high - low) / 2 @ np.abs(back)
-    depths = float(camera.position @ back) - nearest
-    allowed = UNSEEN * _heights(camera, depths) / height
-    return np.maximum(np.minimum(allowed, COARSEST * routing.radii), finest)
+    @classmethod
+    def of(
+        cls, placement: Placement, routing: Routing, view: View, aspect: float, height: int
+    ) -> Detail:
+        """For a picture of everything, of ``aspect`` (width over height)."""
+        items = _item_corners(placement)
+
+        def of_items(way: Floats) -> Floats:
+            return np.asarray(items[int(np.argmax(items @ way))])
+
+        of_tubes = CurveReach.of(routing).farthest if len(routing.radii) else None
+        farthest = farther_of(of_tubes, of_items if len(items) else None)
+        camera = frame(farthest, view, aspect)
+        return cls(placement, routing, camera, axes_from(view.from_).back, height)
+
+    def tubes(self, finest: float) -> Floats:
+        """Of the tubes of each of h hyperedges, (h,), in document units.
+
+        `UNSEEN` pixels where the tube comes nearest to the camera, but not less than ``finest``
+        (document units), nor more than `COARSEST` of its radius where that is more.
+        """
+        low, high = curve_boxes(self.routing).transpose(1, 0, 2)
+        nearest = (low + high) / 2 @ self.back + (high - low) / 2 @ np.abs(self.back)
+        allowed = self._unseen(nearest)
+        return np.maximum(np.minimum(allowed, COARSEST * self.routing.radii), finest)
+
+    def items(self) -> float:
+        """Of all items, in document units: no more than `UNSEEN` pixels at the nearest.
+
+        A power of two, so that a picture that shows a little more or less has the same meshes.
+        """
+        corners = _item_corners(self.placement)
+        if not len(corners):
+            return 0.0
+        nearest = (corners @ self.back).max(keepdims=True)
+        return float(2.0 ** np.floor(np.log2(self._unseen(nearest)[0])))
+
+    def _unseen(self, nearest: Floats) -> Floats:
+        """What `UNSEEN` pixels are, so far towards the camera."""
+        depths = float(self.camera.position @ self.back) - nearest
+        return UNSEEN * _heights(self.camera, depths) / self.height
 
 
 def _heights(camera: Camera, depths: Floats) -> Floats:

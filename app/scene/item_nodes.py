@@ -26,12 +26,17 @@ INKS = ("#1f2933", "#ffffff")
 
 
 def item_nodes(
-    program: Program, notation: Notation, placement: Placement, materials: dict[Material, int]
+    program: Program,
+    notation: Notation,
+    placement: Placement,
+    materials: dict[Material, int],
+    coarseness: float = 0.0,
 ) -> list[Node]:
     """One node for each item, in the order of the document.
 
     Equal bodies share one `Mesh`, and so do equal labels. Bodies with a texture are cut from it at
-    one of a few places, as their ids say. New materials join ``materials``, which numbers them.
+    one of a few places, as their ids say. Others are off by ``coarseness`` (document units) at
+    most, where that saves triangles. New materials join ``materials``, which numbers them.
     """
     bodies: dict[Solid, Mesh] = {}
     labels: dict[LabelPlace, Mesh] = {}
@@ -45,7 +50,7 @@ def item_nodes(
             body = _textured(solid, material.texture, variant_of(item.id))
         else:
             known = bodies.get(solid)
-            body = known or bodies.setdefault(solid, mesh_of(solid))
+            body = known or bodies.setdefault(solid, mesh_of(solid, coarseness))
         parts = [(body, material)]
         if place is not None and program.style.labels:
             label = labels.get(place)

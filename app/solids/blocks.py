@@ -10,27 +10,34 @@ from app.solids.rounding import rounding
 from app.solids.solid import Box, Tray
 
 
-def block_mesh(block: Box | Tray) -> Mesh:
-    """The mesh of a block, massive or hollow."""
-    return _box(block) if isinstance(block, Box) else _tray(block)
+def block_mesh(block: Box | Tray, coarseness: float = 0.0) -> Mesh:
+    """The mesh of a block, massive or hollow; what is round may be off by ``coarseness``."""
+    return _box(block, coarseness) if isinstance(block, Box) else _tray(block, coarseness)
 
 
-def _box(box: Box) -> Mesh:
+def _box(box: Box, coarseness: float) -> Mesh:
     """``edge`` is held below half the smallest size, so that each side stays flat."""
     x, y, z = (size / 2 for size in box.size)
-    edge, segments = rounding(box.edge, limit=2 * min(x, y, z), reach=max(x, y, z))
+    edge, segments = rounding(
+        box.edge, limit=2 * min(x, y, z), reach=max(x, y, z), coarseness=coarseness
+    )
     profile = np.concatenate(
         [corner(edge, -z, -1, edge, segments), corner(edge, z, 0, edge, segments)]
     )
     return turn(rectangle(x - edge, y - edge, segments), profile)
 
 
-def _tray(tray: Tray) -> Mesh:
+def _tray(tray: Tray, coarseness: float) -> Mesh:
     """Round corners and a soft rim."""
     x, y, z = (size / 2 for size in tray.size)
     bend, wall, floor = hollow(tray)
     floor -= z
-    edge, segments = rounding(0.4 * wall, limit=min(wall, z - floor, 2 * z), reach=max(x, y, z))
+    edge, segments = rounding(
+        0.4 * wall,
+        limit=min(wall, z - floor, 2 * z),
+        reach=max(x, y, z),
+        coarseness=coarseness,
+    )
     profile = np.concatenate(
         [
             point(0.0, -z, (0.0, -1.0)),

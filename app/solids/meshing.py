@@ -16,36 +16,37 @@ LONGEST_KEPT = 64
 """Characters. The mesh of a longer label takes more memory than making it again takes time."""
 
 
-def mesh_of(solid: Solid) -> Mesh:
+def mesh_of(solid: Solid, coarseness: float = 0.0) -> Mesh:
     """Triangles of ``solid``, closed and with normals; the same arrays each time, read-only.
 
-    A blank text has no triangles.
+    Where it is enough that what is round is off by ``coarseness``, there are fewer of them. A blank
+    text has no triangles.
     """
     if isinstance(solid, Text) and len(solid.text) > LONGEST_KEPT:
-        return _made(solid)
+        return _made(solid, 0.0)
     if isinstance(solid, Csg):
         return body_of(solid.tree).mesh
-    return _kept(solid)
+    return _kept(solid, 0.0 if isinstance(solid, Text) else coarseness)
 
 
 @lru_cache(maxsize=512)
-def _kept(solid: Solid) -> Mesh:
-    return _made(solid)
+def _kept(solid: Solid, coarseness: float) -> Mesh:
+    return _made(solid, coarseness)
 
 
-def _made(solid: Solid) -> Mesh:
-    mesh = _mesh(solid)
+def _made(solid: Solid, coarseness: float) -> Mesh:
+    mesh = _mesh(solid, coarseness)
     for array in (mesh.vertices, mesh.normals, mesh.faces):
         array.flags.writeable = False
     return mesh
 
 
-def _mesh(solid: Solid) -> Mesh:
+def _mesh(solid: Solid, coarseness: float) -> Mesh:
     match solid:
         case Box() | Tray():
-            return block_mesh(solid)
+            return block_mesh(solid, coarseness)
         case Sphere() | Cylinder() | Cone() | Arrow():
-            return round_mesh(solid)
+            return round_mesh(solid, coarseness)
         case Text():
             return text_mesh(solid)
         case Csg():

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from math import hypot
+import math
 
 import numpy as np
 
 from app.solids.lathe import Profile, circle, corner, point, quarters, turn
 from app.solids.mesh import Mesh
-from app.solids.rounding import rounding
+from app.solids.rounding import rounding, steps
 from app.solids.solid import Arrow, Cone, Cylinder, Sphere
 
 SIDES = 32
 """A circle's polygon is then at most half a hundredth of its radius inside it."""
+
+FEWEST_SIDES = 8
+"""However small a circle is in the picture: who flies up to it sees edges, but a circle."""
 
 SHAFT = 0.45
 """Radius of an arrow's shaft, of its head's."""
@@ -21,30 +24,39 @@ HEAD = 2.4
 """Length of an arrow's head, of its radius, where the arrow is not too short."""
 
 
-def round_mesh(solid: Sphere | Cylinder | Cone | Arrow) -> Mesh:
-    """The mesh of a solid with an axis of revolution."""
+def round_mesh(solid: Sphere | Cylinder | Cone | Arrow, coarseness: float = 0.0) -> Mesh:
+    """The mesh of a solid with an axis of revolution, off by ``coarseness`` at most."""
     match solid:
         case Sphere():
-            return _sphere(solid)
+            return _sphere(solid, coarseness)
         case Cylinder():
-            return _cylinder(solid)
+            return _cylinder(solid, coarseness)
         case Cone():
-            return _cone(solid)
+            return _cone(solid, coarseness)
         case Arrow():
-            return _arrow(solid)
+            return _arrow(solid, coarseness)
 
 
-def _sphere(sphere: Sphere) -> Mesh:
-    normals = quarters(-1, 2, SIDES // 4)
-    return turn(circle(SIDES), np.column_stack([sphere.radius * normals, normals]))
+def _sides(radius: float, coarseness: float) -> int:
+    """A multiple of four, as `circle` wants it."""
+    found = steps(radius, math.tau, SIDES, coarseness)
+    return max(FEWEST_SIDES, 4 * math.ceil(found / 4))
 
 
-def _cylinder(cylinder: Cylinder) -> Mesh:
+def _sphere(sphere: Sphere, coarseness: float) -> Mesh:
+    sides = _sides(sphere.radius, coarseness)
+    normals = quarters(-1, 2, sides // 4)
+    return turn(circle(sides), np.column_stack([sphere.radius * normals, normals]))
+
+
+def _cylinder(cylinder: Cylinder, coarseness: float) -> Mesh:
     """``edge`` is held below the radius and half the height."""
     radius, z = cylinder.radius, cylinder.height / 2
-    edge, segments = rounding(cylinder.edge, limit=2 * min(radius, z), reach=max(radius, z))
+    edge, segments = rounding(
+        cylinder.edge, limit=2 * min(radius, z), reach=max(radius, z), coarseness=coarseness
+    )
     return turn(
-        circle(SIDES),
+        circle(_sides(radius, coarseness)),
         np.concatenate(
             [
                 point(0.0, -z, (0.0, -1.0)),
@@ -56,22 +68,25 @@ def _cylinder(cylinder: Cylinder) -> Mesh:
     )
 
 
-def _cone(cone: Cone) -> Mesh:
+def _cone(cone: Cone, coarseness: float) -> Mesh:
     z = cone.height / 2
     profile = [point(0.0, -z, (0.0, -1.0)), _spike(cone.radius, -z, z)]
-    return turn(circle(SIDES), np.concatenate(profile))
+    return turn(circle(_sides(cone.radius, coarseness)), np.concatenate(profile))
 
 
-def _arrow(arrow: Arrow) -> Mesh:
+def _arrow(arrow: Arrow, coarseness: float) -> Mesh:
     """A shaft and a head a little longer than wide, or half as long as the arrow if it is short."""
     radius, end = arrow.radius, arrow.length / 2
     neck = end - min(HEAD * radius, end)
     shaft = SHAFT * radius
     edge, segments = rounding(
-        0.15 * shaft, limit=min(2 * shaft, neck + end), reach=max(end, radius)
+        0.15 * shaft,
+        limit=min(2 * shaft, neck + end),
+        reach=max(end, radius),
+        coarseness=coarseness,
     )
     upright = turn(
-        circle(SIDES),
+        circle(_sides(radius, coarseness)),
         np.concatenate(
             [
                 point(0.0, -end, (0.0, -1.0)),
@@ -91,7 +106,7 @@ def _arrow(arrow: Arrow) -> Mesh:
 def _spike(radius: float, base: float, tip: float) -> Profile:
     """From the rim of a flat base, facing down, to the tip."""
     length = tip - base
-    slant = hypot(length, radius)
+    slant = math.hypot(length, radius)
     sideways = (length / slant, radius / slant)
     return np.concatenate(
         [

@@ -116,13 +116,13 @@ def test_any_string_can_be_set(text: str) -> None:
 
 
 def test_a_long_label_is_set_at_once() -> None:
-    started = time.perf_counter()
+    started = time.process_time()
     extent((PROMISED * 20)[:500], 1.0)
-    assert time.perf_counter() - started < 1.0
+    assert time.process_time() - started < 1.0
 
 
 def test_a_heap_of_marks_takes_no_more_than_its_length() -> None:
     marks = "\N{COMBINING CEDILLA}\N{COMBINING ACUTE ACCENT}"
-    started = time.perf_counter()
+    started = time.process_time()
     extent("a" + marks * 10_000, 1.0)
-    assert time.perf_counter() - started < 3.0
+    assert time.process_time() - started < 3.0

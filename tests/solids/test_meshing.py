@@ -7,6 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from app.arrays import Floats
 from app.solids.extents import size_of
 from app.solids.meshing import mesh_of
 from app.solids.solid import Arrow, Box, Cone, Cylinder, Solid, Sphere, Text, Tray
@@ -43,6 +44,43 @@ def test_a_solid_of_any_size_is_closed_and_sound(solid: Solid) -> None:
     mesh = mesh_of(solid)
     assert_sound(mesh)
     assert_closed(mesh)
+
+
+@given(solids, st.floats(1e-6, 1e3))
+def test_a_coarse_mesh_is_closed_fills_its_size_and_is_no_finer(
+    solid: Solid, coarseness: float
+) -> None:
+    assume(not isinstance(solid, Tray) or max(solid.size) < 1e5 * min(solid.floor, solid.wall))
+    mesh = mesh_of(solid, coarseness)
+    assert_sound(mesh)
+    assert_closed(mesh)
+    half = np.array(size_of(solid)) / 2
+    np.testing.assert_allclose(mesh.bounds, [-half, half], rtol=1e-6)
+    assert len(mesh.faces) <= len(mesh_of(solid).faces)
+
+
+@given(st.floats(1e-4, 0.3))
+def test_what_is_round_is_off_by_its_coarseness_at_most(coarseness: float) -> None:
+    def middles(solid: Solid) -> Floats:
+        mesh = mesh_of(solid, coarseness)
+        return np.asarray(mesh.vertices[mesh.faces].mean(axis=1, dtype=np.float64))
+
+    # Nothing is finer than usual: a sphere of 32 sides is off by a hundredth of its radius.
+    most = max(coarseness, 0.0097)
+    assert np.linalg.norm(middles(Sphere(1.0)), axis=1).min() >= 1.0 - most
+    places = middles(Cylinder(1.0, 2.0, 0.0))
+    assert np.hypot(*places[np.abs(places[:, 2]) < 0.9, :2].T).min() >= 1.0 - most
+    # A corner of the box in four steps is as coarse as a ball of sixteen.
+    core = np.full(3, 0.5)
+    places = middles(Box((2.0, 2.0, 2.0), 0.5))
+    outward = np.linalg.norm(places - np.clip(places, -core, core), axis=1)
+    assert outward.min() >= 0.5 - max(coarseness, 0.5 * 0.038)
+
+
+@pytest.mark.parametrize("solid", ORDINARY[:1] + ORDINARY[2:-1], ids=str)
+def test_where_it_does_not_show_there_are_fewer_triangles(solid: Solid) -> None:
+    assert len(mesh_of(solid, 0.1).faces) < 0.6 * len(mesh_of(solid).faces)
+    assert mesh_of(solid, 0.1) is mesh_of(solid, 0.1)
 
 
 @given(solids)
