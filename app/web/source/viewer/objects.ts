@@ -30,15 +30,6 @@ export function lightsOf(scene: Object3D): Light[] {
   return found;
 }
 
-/** Whether there is nothing to be seen in an object, or by it. */
-export function isEmptied(object: Object3D): boolean {
-  return !hasMeshes(object) && lightsOf(object).length === 0;
-}
-
-function hasMeshes(object: Object3D): boolean {
-  return object instanceof Mesh || object.children.some(hasMeshes);
-}
-
 /** How many corners of triangles a mesh has. */
 export function lengthOf({ geometry }: Mesh): number {
   return geometry.index?.count ?? geometry.getAttribute("position").count;

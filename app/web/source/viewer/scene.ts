@@ -2,7 +2,7 @@ import { Box3, Group, Matrix4, Vector3, type Mesh, type Object3D } from "three";
 import type { GLTF } from "three/addons/loaders/GLTFLoader.js";
 import { cornersOf } from "./camera.ts";
 import { canShare, merged, MOST_MESHES, type Piece } from "./merging.ts";
-import { free, isEmptied, lengthOf, lightsOf, meshesOf, thingsOf } from "./objects.ts";
+import { free, lengthOf, lightsOf, meshesOf, thingsOf } from "./objects.ts";
 import { simplify } from "./plain.ts";
 import { keyOf, type Thing, type ThingKey, type ThingName } from "./things.ts";
 
@@ -55,9 +55,7 @@ export class Scene {
     for (const each of thingsOf(gltf.scene)) this.remove(each);
     // It brings the same lights once more.
     for (const light of lightsOf(gltf.scene)) light.removeFromParent();
-    for (const emptied of this.root.children.filter(isEmptied)) {
-      emptied.removeFromParent();
-    }
+    for (const emptied of this.#emptied()) emptied.removeFromParent();
     this.root.add(gltf.scene);
     this.#take(gltf.scene);
     return true;
@@ -159,6 +157,18 @@ export class Scene {
     const item = this.things.get(keyOf({ shows: "item", id }));
     return item?.label || id;
   };
+
+  /** What came with earlier changes, and shows and lights nothing any more. */
+  #emptied(): Object3D[] {
+    const used = new Set<Object3D>();
+    // From the meshes up, because most nodes of a large scene have lost theirs to a shared one.
+    for (const mesh of this.meshes.keys()) {
+      let top: Object3D = mesh;
+      while (top.parent && top.parent !== this.root) top = top.parent;
+      used.add(top);
+    }
+    return this.root.children.filter((child) => !used.has(child) && lightsOf(child).length === 0);
+  }
 
   #take(scene: Object3D): void {
     // The page is the ground here; where there are shadows, `Lighting` catches them.
