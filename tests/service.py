@@ -45,7 +45,7 @@ class Service:
     def workers(self) -> list[psutil.Process]:
         """Its worker processes."""
         children = psutil.Process(self.process.pid).children()
-        return [child for child in children if _is_worker(child)]
+        return [child for child in children if is_worker(child)]
 
     def spent(self) -> dict[int, float]:
         """CPU seconds of its workers by process, once none of them computes."""
@@ -63,7 +63,8 @@ class Service:
         return None
 
 
-def _is_worker(process: psutil.Process) -> bool:
+def is_worker(process: psutil.Process) -> bool:
+    """Whether it is a worker of a service or of a pool, and has not ended."""
     try:
         return "app.jobs.worker" in process.cmdline()
     except psutil.NoSuchProcess:  # or a zombie, which is one of these
@@ -77,6 +78,22 @@ def cpu_seconds(process: psutil.Process) -> float:
     except psutil.NoSuchProcess:  # or a zombie, which is one of these
         return 0.0
     return float(times.user + times.system)
+
+
+def spent_until_gone(process: psutil.Process) -> float:
+    """CPU seconds that it computes from now on until it has ended.
+
+    On a busy machine they say more than a clock does about how soon it was stopped.
+    """
+    before = spent = cpu_seconds(process)
+
+    def is_gone() -> bool:
+        nonlocal spent
+        spent = max(spent, cpu_seconds(process))
+        return gone(process)
+
+    until(is_gone)
+    return spent - before
 
 
 def gone(process: psutil.Process) -> bool:

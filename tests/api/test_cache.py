@@ -9,7 +9,7 @@ import httpx
 import pytest
 
 from tests.api.event_streams import events
-from tests.service import SMALL, Service, fresh, large_program, until
+from tests.service import PATIENCE_SECONDS, SMALL, Service, fresh, large_program, until
 
 
 def named(name: str) -> bytes:
@@ -58,7 +58,9 @@ def test_who_leaves_does_not_end_what_another_waits_for(service: Service) -> Non
     with ThreadPoolExecutor(1) as background, service.client() as other, service.client() as third:
         stays = background.submit(other.post, "/v1/render", content=document)
         with pytest.raises(httpx.ReadTimeout):
-            third.post("/v1/render", content=document, timeout=0.2)
+            third.post(
+                "/v1/render", content=document, timeout=httpx.Timeout(PATIENCE_SECONDS, read=0.2)
+            )
         assert stays.result().status_code == 200
     with service.client() as client:
         until(lambda: _comes_from_cache(client, document))

@@ -1,12 +1,11 @@
 from __future__ import annotations
 
 import base64
-import time
 
 import httpx
 
 from tests.api.event_streams import Event, events
-from tests.service import SMALL, Service, fresh, gone, large_program, until
+from tests.service import SMALL, Service, fresh, large_program, spent_until_gone, until
 
 STREAM = {"accept": "text/event-stream"}
 
@@ -67,6 +66,4 @@ def test_who_leaves_a_final_picture_frees_the_processor_within_a_second(service:
             told = events(response)  # unnamed it would be closed, and the stream with it
             next(told)
             busy = until(lambda: service.busy_worker(spent))
-    left = time.monotonic()
-    until(lambda: gone(busy))
-    assert time.monotonic() - left < 1.0
+    assert spent_until_gone(busy) < 1.0

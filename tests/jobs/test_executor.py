@@ -16,7 +16,7 @@ from app.answers import Answer, LayoutOptions, RenderOptions, Unchanged
 from app.errors import DeadlineExceeded, DocumentTooLarge, InvalidDocument, Overloaded
 from app.jobs.executor import SHORT_LINE, WorkerPool
 from app.settings import Settings
-from tests.service import SMALL, large_program, wide_program
+from tests.service import PATIENCE_SECONDS, SMALL, is_worker, large_program, wide_program
 
 DOCUMENT = json.dumps(SMALL).encode()
 LARGE = large_program(300)
@@ -44,19 +44,15 @@ def in_new_pool(pool: WorkerPool, test: Test) -> None:
 
 
 def worker_pids() -> set[int]:
-    return {
-        child.pid
-        for child in psutil.Process().children()
-        if child.status() != psutil.STATUS_ZOMBIE and "app.jobs.worker" in child.cmdline()
-    }
+    return {child.pid for child in psutil.Process().children() if is_worker(child)}
 
 
 async def warm(pool: WorkerPool) -> None:
-    """Have work done, as soon as there is a worker for it."""
+    """Have work done, as soon as there is a worker for it that does it in time."""
     while True:
         try:
             await pool.answer(DOCUMENT, LayoutOptions())
-        except Overloaded:
+        except (Overloaded, DeadlineExceeded):
             await asyncio.sleep(0.01)
         else:
             return
@@ -152,7 +148,9 @@ def test_a_full_line_turns_works_away_at_once_and_leaving_it_frees_a_place(
     in_pool(test)
 
 
-@pytest.mark.parametrize(("line_seconds", "answered"), [(3.0, 20), (1e-4, 1 + SHORT_LINE)])
+@pytest.mark.parametrize(
+    ("line_seconds", "answered"), [(PATIENCE_SECONDS, 20), (1e-4, 1 + SHORT_LINE)]
+)
 def test_only_a_line_that_is_soon_done_may_grow_long(line_seconds: float, answered: int) -> None:
     async def test(pool: WorkerPool) -> None:
         await warm(pool)
@@ -167,13 +165,20 @@ def test_only_a_line_that_is_soon_done_may_grow_long(line_seconds: float, answer
 def test_short_work_that_nobody_waits_for_ends_and_keeps_its_worker(
     in_pool: Callable[[Test], None],
 ) -> None:
-    async def test(pool: WorkerPool) -> None:
+    async def keeps(pool: WorkerPool) -> bool:
         await warm(pool)
         before = worker_pids()
         leaving = asyncio.create_task(pool.answer(DOCUMENT, RenderOptions()))
         await asyncio.sleep(0)
         leaving.cancel()
         await warm(pool)
-        assert worker_pids() == before
+        return worker_pids() == before
+
+    async def test(pool: WorkerPool) -> None:
+        # Half a second is short for a machine that has other things to do; not three times.
+        for _ in range(3):
+            if await keeps(pool):
+                return
+        pytest.fail("Work that takes a moment cost its worker.")
 
     in_pool(test)

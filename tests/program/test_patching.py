@@ -281,10 +281,10 @@ COMPARISONS = [
 def test_bombs_are_refused_quickly(operations: Any, error: type[DocumentError]) -> None:
     small = Settings(max_values=200_000)
     data = operations if isinstance(operations, bytes) else json.dumps(operations).encode()
-    began = time.monotonic()
+    began = time.process_time()
     with pytest.raises(error):
         apply_json_patch(b'{"items":[{"id":"a"}],"data":{"z":0}}', data, small)
-    assert time.monotonic() - began < 3
+    assert time.process_time() - began < 3
 
 
 RFC_7396: list[tuple[JsonValue, JsonValue, JsonValue]] = [
