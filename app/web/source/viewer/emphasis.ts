@@ -80,7 +80,7 @@ export class Emphasis {
     if (first === undefined) return;
     const isWhole = parts.length === 1 && first.count === lengthOf(mesh);
     const chosen = parts.map(({ key }) => lookOf(key));
-    if (isWhole || chosen.every((look) => look === "plain" && covers(parts, mesh))) {
+    if (isWhole || (chosen.every((look) => look === "plain") && covers(parts, mesh))) {
       const [look] = chosen;
       mesh.visible = look !== "hidden";
       mesh.material = look === "hidden" || look === undefined ? looks.plain : looks[look];
