@@ -1,3 +1,4 @@
+import { admitted, askWhereWanted, authorization, heedKey } from "./key.ts";
 import "./tube-viewer.ts";
 
 const query = new URLSearchParams(location.search);
@@ -14,6 +15,10 @@ if (viewer && none && programs) {
     if (value !== null) viewer.setAttribute(name, value);
   }
   viewer.setAttribute("conflicts", "");
+  askWhereWanted();
+  heedKey((key) => {
+    if (key !== viewer.key) viewer.key = key;
+  });
   const isEmpty = !query.get("stored") && !query.get("src");
   viewer.hidden = isEmpty;
   none.hidden = !isEmpty;
@@ -27,7 +32,8 @@ async function offer(choices: HTMLSelectElement): Promise<void> {
   choices.addEventListener("change", () => {
     if (choices.value) location.search = `?stored=${encodeURIComponent(choices.value)}`;
   });
-  const response = await fetch("/v1/programs?limit=100");
+  await admitted();
+  const response = await fetch("/v1/programs?limit=100", { headers: authorization() });
   if (!response.ok) return;
   const { programs: found } = (await response.json()) as { programs: { id?: string; program?: string }[] };
   for (const each of found) {

@@ -14,6 +14,7 @@ export interface Clearance {
 }
 
 interface ViewerElement extends HTMLElement {
+  key: string | undefined;
   selection: readonly ThingName[];
 }
 
@@ -24,6 +25,8 @@ export interface TubePreviewProps {
   onSelect?: (things: readonly ThingName[]) => void;
   onClearance?: (clearance: Clearance) => void;
   theme?: "light" | "dark" | undefined;
+  /** Where the service wants a key; the viewer sends it to that service alone. */
+  apiKey?: string | undefined;
   /** Further attributes of `<tube-viewer>`, such as `service`, `labels` and `motion`. */
   attributes?: Readonly<Record<string, string>>;
 }
@@ -32,7 +35,7 @@ const NOTHING: readonly ThingName[] = [];
 
 /** `<tube-viewer>` in React. The page loads the element itself: `tube-viewer.js` of the service. */
 export function TubePreview(props: TubePreviewProps): ReactElement {
-  const { stored, selection = NOTHING, onSelect, onClearance, theme, attributes } = props;
+  const { stored, selection = NOTHING, onSelect, onClearance, theme, apiKey, attributes } = props;
   const viewer = useRef<ViewerElement>(null);
   const heard = useRef({ onSelect, onClearance });
   heard.current = { onSelect, onClearance };
@@ -53,6 +56,14 @@ export function TubePreview(props: TubePreviewProps): ReactElement {
       element.removeEventListener("tube-clearance", clearance);
     };
   }, []);
+
+  useEffect(() => {
+    // Before the element is known, this would not reach it.
+    void customElements.whenDefined("tube-viewer").then(() => {
+      const element = viewer.current;
+      if (element !== null && element.key !== apiKey) element.key = apiKey;
+    });
+  }, [apiKey]);
 
   useEffect(() => {
     // What is not shown yet cannot be selected: it is tried again with what comes.

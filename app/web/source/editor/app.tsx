@@ -16,14 +16,13 @@ import { StatusLine } from "./status.tsx";
 import { useShortcuts } from "./shortcuts.ts";
 import { useTheme } from "./theme.ts";
 
-// The link itself waits and tries again; a client without patience lets it tell so at once.
-const CLIENT = new Client(location.origin, { patience: 0 });
 const OPTIONS = { origin: ORIGIN };
 const FRAME: Frame = { name: "Grandparents" };
 
 interface EditorProps {
   id: string;
   isNew: boolean;
+  apiKey: string | undefined;
 }
 
 /** The editor, and the picture of its program beside it. */
@@ -35,7 +34,12 @@ export function App(props: EditorProps): ReactElement {
   );
 }
 
-function Editor({ id, isNew }: EditorProps): ReactElement {
+function Editor({ id, isNew, apiKey }: EditorProps): ReactElement {
+  // The link itself waits and tries again; a client without patience lets it tell so at once.
+  const client = useMemo(
+    () => new Client(location.origin, { patience: 0, ...(apiKey && { key: apiKey }) }),
+    [apiKey],
+  );
   const flow = useReactFlow<AppNode, Edge>();
   const { theme, switchTheme } = useTheme();
   const [graph, setGraph] = useState(example);
@@ -51,7 +55,7 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
   const show = useCallback(
     (program: ProgramDocument) => {
       setIsComing(!isShown.current);
-      void graphOf(program, CLIENT).then(
+      void graphOf(program, client).then(
         (found) => {
           setIsComing(false);
           const { items: _, hyperedges: __, ...rest } = program;
@@ -66,10 +70,10 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
         },
       );
     },
-    [flow],
+    [flow, client],
   );
   const link = useTubeloom({
-    client: CLIENT,
+    client,
     id,
     isNew,
     nodes: graph.nodes,
@@ -132,7 +136,7 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
       .then((text) => {
         const program = JSON.parse(text) as ProgramDocument;
         // The service judges the document, before it takes the place of what is here.
-        return CLIENT.layout(program).then(() => show(program));
+        return client.layout(program).then(() => show(program));
       })
       .catch((error: unknown) => setTrouble(error instanceof Error ? error.message : String(error)));
   };
@@ -166,6 +170,7 @@ function Editor({ id, isNew }: EditorProps): ReactElement {
         <section className="preview" aria-label="In three dimensions">
           <TubePreview
             stored={link.revision > 0 ? id : undefined}
+            apiKey={apiKey}
             selection={selection}
             onSelect={select}
             onClearance={setClearance}

@@ -1,6 +1,8 @@
 import { createRoot } from "react-dom/client";
+import { admitted, askForKey, keyOf } from "../key.ts";
 import "../tube-viewer.ts";
 import { App } from "./app.tsx";
+import { wearTheme } from "./theme.ts";
 
 const query = new URLSearchParams(location.search);
 const given = query.get("program");
@@ -10,8 +12,15 @@ if (!given) {
   history.replaceState(null, "", `?${query.toString()}`);
 }
 
+wearTheme();
+await admitted();
+// A key may end while one works; with another one, all is fetched anew.
+addEventListener("tube-problem", (event) => {
+  const { problem } = (event as CustomEvent<{ problem: { status: number } }>).detail;
+  if (problem.status === 401) void askForKey().then((isGiven) => isGiven && location.reload());
+});
 const place = document.querySelector("#editor");
-if (place) createRoot(place).render(<App id={id} isNew={!given} />);
+if (place) createRoot(place).render(<App id={id} isNew={!given} apiKey={keyOf()} />);
 
 /** Pages that do not come over TLS have no `randomUUID`. */
 function freshId(): string {

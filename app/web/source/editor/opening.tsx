@@ -1,4 +1,5 @@
 import { useEffect, useRef, useState, type ReactElement } from "react";
+import { authorization } from "../key.ts";
 
 interface Listed {
   id: string;
@@ -19,7 +20,7 @@ export function Opening({ onFile, onClose }: OpeningProps): ReactElement {
   const [trouble, setTrouble] = useState("");
   useEffect(() => {
     dialog.current?.showModal();
-    void fetch("/v1/programs?limit=100").then(
+    void fetch("/v1/programs?limit=100", { headers: authorization() }).then(
       async (response) => {
         if (response.ok) setPrograms(((await response.json()) as { programs: Listed[] }).programs);
         else setTrouble(`The service does not list programs (${response.status}).`);

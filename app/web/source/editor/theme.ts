@@ -2,6 +2,12 @@ import { useEffect, useState } from "react";
 
 const KEPT = "tubeloom.theme";
 
+/** Light or dark, before there is anything that could switch it. */
+export function wearTheme(): void {
+  const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+  document.documentElement.dataset["theme"] = localStorage.getItem(KEPT) ?? (isDark ? "dark" : "light");
+}
+
 /** Light or dark: as the system prefers, until it is switched on one of the pages. */
 export function useTheme(): { theme: "light" | "dark"; switchTheme: () => void } {
   const [kept, setKept] = useState(() => localStorage.getItem(KEPT));

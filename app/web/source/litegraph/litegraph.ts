@@ -1,5 +1,6 @@
 import { LGraph, LGraphCanvas, LGraphNode, LiteGraph } from "litegraph.js/build/litegraph.core.js";
 import { Client, Problem, type Edit, type ProgramDocument } from "tubeloom-client";
+import { admitted, keyOf } from "../key.ts";
 import "../tube-viewer.ts";
 
 type Item = ProgramDocument["items"][number];
@@ -149,9 +150,13 @@ for (const kind of Object.keys(KINDS)) {
   document.querySelector("#kinds")?.append(button);
 }
 
+await admitted();
+const key = keyOf();
+if (key !== undefined) viewer.key = key;
+
 // The first call: put the program.
 const id = `litegraph-${[...crypto.getRandomValues(new Uint8Array(6))].join("")}`;
-const program = new Client(location.origin, { patience: 0 }).program(id);
+const program = new Client(location.origin, { patience: 0, ...(key && { key }) }).program(id);
 let sent = programOf(graph);
 await program.create(sent);
 

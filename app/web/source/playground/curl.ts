@@ -1,10 +1,14 @@
-/** The command line that asks for what one sees: a query, and the document within it. */
-export function curlOf(origin: string, query: string, file: string, document: string): string {
+/**
+ * The command line that asks for what one sees: a query, and the document within it. Where a key is
+ * wanted it is taken from the environment, for command lines are passed around.
+ */
+export function curlOf(origin: string, query: string, file: string, document: string, isKeyed: boolean): string {
   let end = "PROGRAM";
   while (document.split("\n").includes(end)) end += "_";
   const text = document.endsWith("\n") ? document : `${document}\n`;
   return [
     `curl --fail-with-body --output ${quoted(file)} \\`,
+    ...(isKeyed ? [`  --header "Authorization: Bearer $TUBELOOM_KEY" \\`] : []),
     `  --header 'Content-Type: application/json' --data-binary @- \\`,
     `  ${quoted(`${origin}/v1/render?${query}`)} <<'${end}'`,
     `${text}${end}\n`,

@@ -1,6 +1,7 @@
+import { heedKey, keepKey } from "../key.ts";
 import { make } from "./page.ts";
 import { valueAt, type Parsed } from "./places.ts";
-import { keepKey, palettes, service } from "./service.ts";
+import { palettes } from "./service.ts";
 
 type Path = readonly ["layout" | "style" | "view", string];
 
@@ -124,7 +125,8 @@ export class Options {
 /** Some services want a key. It stays in this tab. */
 function keyField(): HTMLElement {
   const input = make("input");
-  Object.assign(input, { type: "password", autocomplete: "off", placeholder: "where one is wanted", value: service.key ?? "" });
+  Object.assign(input, { type: "password", autocomplete: "off", placeholder: "where one is wanted" });
+  heedKey((key) => (input.value = key ?? ""));
   input.addEventListener("change", () => keepKey(input.value));
   const form = make("form", {}, make("label", {}, make("span", { text: "API key" }), input));
   form.addEventListener("submit", (event) => event.preventDefault());

@@ -1,4 +1,5 @@
 import "../tube-viewer.ts";
+import { askWhereWanted, heedKey } from "../key.ts";
 import { TubeViewer, type TubeEvents } from "../viewer/element.ts";
 import { keyOf, type ThingName } from "../viewer/things.ts";
 import { copy, curlOf, fileOf } from "./curl.ts";
@@ -13,7 +14,7 @@ import { idsOf, parse, rangeOfThing, thingAt, valueAt, type Parsed, type Range }
 import { place } from "./popovers.ts";
 import { Problems } from "./problems.ts";
 import { rewrite } from "./rewriting.ts";
-import { heedKey, troubleOf } from "./service.ts";
+import { service, troubleOf } from "./service.ts";
 import { share } from "./split.ts";
 import { Stills, type Quality } from "./stills.ts";
 import { ProgramText } from "./text.ts";
@@ -188,11 +189,12 @@ on("tube-load", (detail) => {
   selectInPicture();
 });
 on("tube-problem", ({ problem }) => {
-  problems.problem = problem;
+  // A missing key is nothing that is wrong with the text.
+  const isOfText = problem.status !== 401;
+  problems.problem = isOfText ? problem : undefined;
   problems.show(parsed);
-  viewer.classList.add("refused");
+  viewer.classList.toggle("refused", isOfText);
   verdict.classList.add("old");
-  if (problem.status === 401) warn("This service wants an API key: write it under Options.");
 });
 on("tube-clearance", ({ clearance }) => {
   problems.clearance = clearance;
@@ -226,7 +228,7 @@ async function copied(button: HTMLButtonElement, what: string, text: () => strin
 const copyCurl = part("#copy-curl", HTMLButtonElement);
 copyCurl.addEventListener("click", () => {
   const file = fileOf(valueAt(parsed, ["name"]), stills.quality === "interactive" ? "glb" : "png");
-  void copied(copyCurl, "The command", () => curlOf(location.origin, stills.query(...size()), file, editor.text));
+  void copied(copyCurl, "The command", () => curlOf(location.origin, stills.query(...size()), file, editor.text, service.key !== undefined));
 });
 const copyLink = part("#copy-link", HTMLButtonElement);
 copyLink.addEventListener("click", () => {
@@ -268,6 +270,7 @@ switchTheme(part("#theme", HTMLButtonElement), (isDark) => {
 heedKey((key) => {
   if (key !== viewer.key) viewer.key = key;
 });
+askWhereWanted();
 window.addEventListener("hashchange", () => void begin());
 void begin();
 enrichAfterwards();

@@ -1,25 +1,10 @@
+import { heedKey } from "../key.ts";
 import { Asker, Refusal } from "../viewer/loading.ts";
 
 /** The service that this page comes from. */
 export const service = new Asker(location.origin);
 
-const KEPT = "tubeloom.key";
-const heeding: ((key: string | undefined) => void)[] = [];
-
-/** Tells of the key that the service is asked with, now and when another one is given. */
-export function heedKey(act: (key: string | undefined) => void): void {
-  heeding.push(act);
-  act(service.key);
-}
-
-/** Ask with this key from now on, as long as this tab is open. */
-export function keepKey(key: string): void {
-  service.key = key.trim() || undefined;
-  sessionStorage.setItem(KEPT, service.key ?? "");
-  for (const act of heeding) act(service.key);
-}
-
-service.key = sessionStorage.getItem(KEPT) || undefined;
+heedKey((key) => (service.key = key));
 
 export const AS_JSON = { "Content-Type": "application/json" };
 

@@ -96,6 +96,7 @@ button svg { display: block; width: 18px; height: 18px; fill: none; stroke: curr
   background: var(--ink);
   color: var(--paper);
 }
+:host([toolbar]) #status { top: 58px; }
 #status[hidden] { display: none; }
 #progress { position: absolute; left: 0; right: 0; top: 0; height: 3px; overflow: hidden; }
 #progress[hidden] { display: none; }
