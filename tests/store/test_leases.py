@@ -15,7 +15,6 @@ from app.output.effort import Effort
 from app.output.media import SceneFormat
 from app.store import jobs, leases, tables
 from app.store.database import Connection, Database
-from tests.postgres import Postgres, running_postgres
 
 OPTIONS = RenderOptions(
     SceneFormat.WEBP,
@@ -27,13 +26,6 @@ OPTIONS = RenderOptions(
 
 LONG, OVER = 60.0, -1.0
 """Seconds of a lease that holds, and of one that has run out."""
-
-
-@pytest.fixture(scope="module")
-def postgres() -> Iterator[Postgres]:
-    """A server for all tests."""
-    with running_postgres() as server:
-        yield server
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])

@@ -17,13 +17,6 @@ from app.store import programs, requests
 from app.store.database import Database
 from app.store.records import Head, Record
 from app.store.requests import Reply
-from tests.postgres import Postgres, running_postgres
-
-
-@pytest.fixture(scope="module")
-def postgres() -> Iterator[Postgres]:
-    with running_postgres() as server:
-        yield server
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])

@@ -19,7 +19,6 @@ from app.store.database import Database
 from app.store.objects import ANSWER_SECONDS
 from app.store.results import Result, Results
 from app.store.tables import results as results_table
-from tests.postgres import Postgres, running_postgres
 
 KEYS = [f"{number:064x}" for number in range(8)]
 JSON = "application/json"
@@ -27,13 +26,6 @@ FAR = 4_000_000_000_000
 """Later than now, in milliseconds since 1970."""
 
 Work = Callable[[Results], Coroutine[Any, Any, None]]
-
-
-@pytest.fixture(scope="module")
-def postgres() -> Iterator[Postgres]:
-    """A server for all tests."""
-    with running_postgres() as server:
-        yield server
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
