@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
+
+from tests.service import Service, running_service
 
 # How long an example takes says more about what else the machine does than about the code.
 settings.register_profile("untimed", deadline=None)
@@ -30,6 +33,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Order files of tests; within a file all stays as it is."""
     places = {f"test_{name}.py": place for place, name in enumerate(LONG)}
     items.sort(key=lambda item: places.get(item.path.name, len(LONG)))
+
+
+@pytest.fixture(scope="session")
+def usual_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """The service as it is by default, for all who need no other."""
+    with running_service(tmp_path_factory.mktemp("service"), workers=2) as running:
+        yield running
 
 
 def require(condition: object, reason: str) -> None:

@@ -12,10 +12,9 @@ from tests.service import Service, running_service
 
 
 @pytest.fixture(scope="session")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+def service(usual_service: Service) -> Service:
     """The service as it is by default."""
-    with running_service(tmp_path_factory.mktemp("service"), workers=2) as running:
-        yield running
+    return usual_service
 
 
 @pytest.fixture(scope="session")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import subprocess
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -16,7 +15,7 @@ from tests.service import PATIENCE_SECONDS, Service, running_service
 ADAPTER = Path(__file__).parents[2] / "clients" / "react-flow" / "src"
 DRIVERS = Path(__file__).with_name("react_flow")
 
-WITHOUT_REACT = ("graph", "places", "program-of", "flow-of", "edits-between", "link")
+WITHOUT_REACT = ("graph", "places", "program-of", "flow-of", "edits-between", "link", "waiting")
 
 ROUNDS = int(os.environ.get("TUBELOOM_TEST_ROUNDS", "25"))
 
@@ -30,19 +29,12 @@ def adapted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture(scope="module")
-def remembering(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """A service that keeps the revisions of a whole drag."""
-    with running_service(tmp_path_factory.mktemp("service")) as running:
-        yield running
-
-
 @pytest.mark.parametrize("script", ["adapter", "linking"])
-def test_by_the_test_runner_of_node(script: str, adapted: Path, remembering: Service) -> None:
+def test_by_the_test_runner_of_node(script: str, adapted: Path, usual_service: Service) -> None:
     done = subprocess.run(
         ["node", "--test", "--test-reporter=spec", f"{script}.js"],
         cwd=adapted,
-        env={**os.environ, "TUBELOOM_URL": remembering.url, "ROUNDS": str(ROUNDS)},
+        env={**os.environ, "TUBELOOM_URL": usual_service.url, "ROUNDS": str(ROUNDS)},
         capture_output=True,
         text=True,
         check=False,
