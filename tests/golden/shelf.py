@@ -19,7 +19,7 @@ PICTURES = Path(__file__).with_name("pictures")
 MATERIALS = get_args(MaterialName)
 QUALITIES = ("draft", "final")
 COLUMNS, ROWS = 3, 3
-SIZES = {"draft": (384, 344), "final": (288, 258)}
+SIZES = {"draft": (384, 344), "final": (216, 194)}
 
 SHAPES: dict[str, dict[str, Any]] = {
     "box": {"type": "box", "size": [1.3, 1.0, 1.0]},
