@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, beforeEach, afterEach, test } from "node:test";
+import { PNG } from "pngjs";
 import { drawn, edit, heard, launch, open, pixels, seen, shown, store, until, SERVICE } from "./browser.mjs";
 
 let browser;
@@ -193,6 +194,23 @@ test("a program is saved as a file and read again; stored ones are listed", asyn
   await node("b").waitFor();
   await edit("listed", { type: "set_item", id: "b", fields: { label: "By another" } });
   await page.getByText("By another").waitFor();
+});
+
+test("hyperedges without colours of their own have the colours of their tubes", async () => {
+  const items = ["a", "b", "c", "d"].map((id, place) => ({ id, label: id, position: [4 * (place % 2), 5 * (place >> 1), 0] }));
+  const joining = (id, ...ends) => ({ id, attachments: ends.map((item) => ({ item })) });
+  await store("uncoloured", { items, hyperedges: [joining("e", "a", "b"), joining("f", "c", "d")] });
+  await page.goto(`${SERVICE}/editor?program=uncoloured`);
+  await saved();
+  await shown(page);
+  const { hyperedges } = await (await fetch(`${SERVICE}/v1/programs/uncoloured/layout`)).json();
+  const canvas = page.locator(".canvas");
+  for (const { id, color } of hyperedges) {
+    const paint = [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
+    const isPaint = (...rgb) => rgb.every((value, channel) => Math.abs(value - paint[channel]) < 4);
+    await until(async () => pixels(PNG.sync.read(await canvas.screenshot()), isPaint).length > 200);
+    assert.equal((await program()).hyperedges.find((each) => each.id === id).color ?? null, null);
+  }
 });
 
 test("a file that is no program changes nothing, and that is said", async () => {

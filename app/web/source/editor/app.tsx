@@ -10,6 +10,7 @@ import { Header } from "./header.tsx";
 import type { Kind } from "./kinds.ts";
 import { Editing, keyOfEnd } from "./nodes.tsx";
 import { download, Opening } from "./opening.tsx";
+import { usePaints } from "./paints.ts";
 import { Palette } from "./palette.tsx";
 import { graphOf, keptSelection, selected, selectionOf } from "./showing.ts";
 import { StatusLine } from "./status.tsx";
@@ -83,6 +84,7 @@ function Editor({ id, isNew, apiKey }: EditorProps): ReactElement {
     onProgram: show,
   });
   const { undo, redo, beginGesture, endGesture } = link;
+  const paints = usePaints(client, id, graph, link.status === "saved");
 
   const names = useMemo(() => selectionOf(graph), [graph]);
   const selection = useStable(names);
@@ -164,7 +166,7 @@ function Editor({ id, isNew, apiKey }: EditorProps): ReactElement {
         <Palette onAdd={add} />
         <section className={isOpen ? "canvas" : "canvas waiting"} aria-label="Editor">
           <Editing.Provider value={acts}>
-            <Canvas graph={graph} setGraph={setGraph} colorMode={theme} onGesture={onGesture} />
+            <Canvas graph={graph} setGraph={setGraph} paints={paints} colorMode={theme} onGesture={onGesture} />
           </Editing.Provider>
         </section>
         <section className="preview" aria-label="In three dimensions">

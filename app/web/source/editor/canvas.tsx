@@ -33,14 +33,15 @@ export const KIND_TYPE = "application/x-tubeloom-kind";
 interface CanvasProps {
   graph: Graph;
   setGraph: Dispatch<SetStateAction<Graph>>;
+  paints: ReadonlyMap<string, string>;
   colorMode: "light" | "dark";
   onGesture: (isOn: boolean) => void;
 }
 
 /** The graph, where one draws. */
-export function Canvas({ graph, setGraph, colorMode, onGesture }: CanvasProps): ReactElement {
+export function Canvas({ graph, setGraph, paints, colorMode, onGesture }: CanvasProps): ReactElement {
   const flow = useReactFlow<AppNode, Edge>();
-  const { nodes, edges } = useMemo(() => dressed(graph), [graph]);
+  const { nodes, edges } = useMemo(() => dressed(graph, paints), [graph, paints]);
 
   const onNodesChange = useCallback(
     (changes: NodeChange<AppNode>[]) => {

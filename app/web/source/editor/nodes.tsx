@@ -78,7 +78,7 @@ function JunctionNode({ id, data }: NodeProps<AppNode>): ReactElement {
   const label = data["label"] as string | undefined;
   return (
     <div className="junction" onDoubleClick={() => acts?.startRename(id)}>
-      <span className="dot" style={{ background: (data["color"] as string | undefined) ?? "var(--muted)" }} />
+      <span className="dot" style={{ background: ((data["color"] ?? data["paint"]) as string | undefined) ?? "var(--muted)" }} />
       {acts?.renamed === id ? <Rename id={id} label={label ?? ""} /> : label ? <b>{label}</b> : null}
       <Handle type="source" position={Position.Top} tabIndex={-1} aria-hidden="true" />
     </div>

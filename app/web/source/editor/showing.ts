@@ -56,8 +56,12 @@ export function selected(graph: Graph, things: readonly ThingName[]): Graph {
   };
 }
 
-/** The graph with what depends on it: names for those who hear it, and hyperedges' colours on their lines. */
-export function dressed({ nodes, edges }: Graph): Graph {
+/**
+ * The graph with what depends on it: names for those who hear it, and hyperedges' colours on their
+ * dots and lines, where they have none of their own by `paints`.
+ */
+export function dressed({ nodes, edges }: Graph, paints: ReadonlyMap<string, string>): Graph {
+  const paintOf = (junction: AppNode | undefined) => junction?.data["color"] ?? paints.get(junction?.id ?? "");
   const byId = new Map(nodes.map((node) => [node.id, node]));
   const members = (id: string) =>
     edges.filter(({ target }) => target === id).map(({ source }) => titleOf(byId.get(source)));
@@ -65,12 +69,14 @@ export function dressed({ nodes, edges }: Graph): Graph {
     nodes: nodes.map((node) => {
       const title = titleOf(node);
       if (node.type !== JUNCTION) return { ...node, ariaLabel: `${String(node.data["kind"] ?? "item")} ${title}` };
-      return { ...node, zIndex: 10, ariaLabel: `Hyperedge ${title}, joins ${members(node.id).join(", ")}` };
+      const ariaLabel = `Hyperedge ${title}, joins ${members(node.id).join(", ")}`;
+      const data = node.data["color"] === undefined ? { ...node.data, paint: paintOf(node) } : node.data;
+      return { ...node, zIndex: 10, ariaLabel, data };
     }),
     edges: edges.map((edge) => {
       const junction = byId.get(edge.target);
       const ariaLabel = `Line from ${titleOf(byId.get(edge.source))} to hyperedge ${titleOf(junction)}`;
-      return { ...edge, type: "line", ariaLabel, data: { color: junction?.data["color"] } };
+      return { ...edge, type: "line", ariaLabel, data: { color: paintOf(junction) } };
     }),
   };
 }
