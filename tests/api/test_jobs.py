@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import httpx
 import pytest
@@ -195,7 +196,13 @@ def scarce(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
 
 def test_what_takes_too_much_memory_fails(scarce: Service) -> None:
     with scarce.client() as client:
-        problem = over(client, start(client, "format=glb", wide_program(3000)))["problem"]
+
+        def problem_in_time() -> dict[str, Any] | None:
+            found = over(client, start(client, "format=glb", wide_program(3000)))["problem"]
+            return None if found["type"].endswith(":deadline-exceeded") else dict(found)
+
+        # A busy machine may come to the deadline before it comes to the memory.
+        problem = until(problem_in_time)
         assert problem["type"] == "urn:tubeloom:problem:document-too-large"
         assert "0.5 GiB" in problem["detail"]
 
