@@ -42,7 +42,7 @@ def tables(found: dict[str, Any]) -> str:
     for each in found["first"]:
         times[each["path"]].append(each["milliseconds"])
         bytes_of[each["path"]] = each["bytes"]
-    lines = ["First picture of ID3 clause 2, from asking for the page (median of 3 browsers):"]
+    lines = ["First picture of ID3 clause 2, from asking for the page (median of 5 browsers):"]
     for path, values in times.items():
         script = bytes_of[path] / 1000
         lines.append(f"  {path:16} {median(values):6.0f} ms, {script:.0f} kB of script (gzip)")

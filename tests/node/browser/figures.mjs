@@ -8,11 +8,8 @@ const WINDOW = { viewport: { width: 1280, height: 800 } };
 async function firstPicture(browser, path) {
   const context = await browser.newContext(WINDOW);
   const page = await context.newPage();
-  let bytes = 0;
-  page.on("response", async (response) => {
-    if (response.request().resourceType() !== "script") return;
-    bytes += gzipSync(await response.body().catch(() => Buffer.alloc(0))).length;
-  });
+  const scripts = new Set();
+  page.on("request", (request) => request.resourceType() === "script" && scripts.add(request.url()));
   await page.addInitScript(() => {
     addEventListener("tube-load", () => {
       addEventListener("tube-frame", () => setTimeout(() => (window.seen ??= performance.now())), { once: true });
@@ -21,8 +18,11 @@ async function firstPicture(browser, path) {
   await page.goto(SERVICE + path);
   const seen = await page.waitForFunction(() => window.seen);
   const milliseconds = await seen.jsonValue();
-  await page.waitForTimeout(500);
+  // What comes after the picture counts too.
+  await page.waitForTimeout(3000);
   await context.close();
+  let bytes = 0;
+  for (const url of scripts) bytes += gzipSync(Buffer.from(await (await fetch(url)).arrayBuffer())).length;
   return { milliseconds, bytes };
 }
 
@@ -64,6 +64,7 @@ async function edits(browser, hyperedges) {
       [id, color],
     );
     const { at } = await heard(page, "load", `({ at }) => at > ${before}`);
+    await heard(page, "clearance", `({ at }) => at > ${before}`);
     ready.push(at - (await page.evaluate(() => window.sent)));
     frames.push(
       await page.evaluate(async () => {
@@ -75,6 +76,8 @@ async function edits(browser, hyperedges) {
         return (performance.now() - began) / 2;
       }),
     );
+    // The next edit does not wait for this one's frames.
+    await page.screenshot();
   }
   await page.context().close();
   return { hyperedges, triangles, calls, bytes, ready: middle(ready), frame: middle(frames) };
@@ -99,7 +102,7 @@ function middle(values) {
 
 await store("clause", JSON.parse(process.env.CLAUSE));
 const found = { first: [], edits: [] };
-for (let round = 0; round < 3; round += 1) {
+for (let round = 0; round < 5; round += 1) {
   const browser = await launch();
   found.first.push({ path: "/viewer", ...(await firstPicture(browser, "/viewer?stored=clause")) });
   found.first.push({ path: "/viewer, again", ...(await firstPicture(browser, "/viewer?stored=clause")) });

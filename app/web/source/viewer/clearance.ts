@@ -13,9 +13,14 @@ export class ConflictMarks {
   readonly #ring = new TorusGeometry(1, 0.12, 8, 40);
   readonly #paint = new MeshBasicMaterial({ color: 0xe11d48, depthTest: false, transparent: true });
 
-  /** Mark these places in a scene that is as large as this box. */
-  show(conflicts: Clearance["conflicts"], box: Box3): void {
+  #shown = "";
+
+  /** Mark these places in a scene that is as large as this box; whether that looks otherwise than before. */
+  show(conflicts: Clearance["conflicts"], box: Box3): boolean {
     const radius = box.getSize(new Vector3()).length() * RADIUS_SHARE;
+    const wanted = JSON.stringify([conflicts.map(({ place }) => place), conflicts.length && radius]);
+    if (wanted === this.#shown) return false;
+    this.#shown = wanted;
     this.group.clear();
     for (const { place } of conflicts) {
       const [x = 0, y = 0, z = 0] = place;
@@ -29,6 +34,7 @@ export class ConflictMarks {
       };
       this.group.add(ring);
     }
+    return true;
   }
 
   dispose(): void {

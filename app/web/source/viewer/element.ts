@@ -208,8 +208,8 @@ export class TubeViewer extends HTMLElement {
       status: (status, detail) => this.#note.tell(status, detail),
       problem: (problem) => this.#say("tube-problem", { problem }),
       clearance: (clearance) => {
-        this.#marks.show(clearance.conflicts, this.#scene.box);
-        this.#stage?.invalidate();
+        // A frame may take long, and most edits leave the conflicts that there are.
+        if (this.#marks.show(clearance.conflicts, this.#scene.box)) this.#stage?.invalidate();
         this.#say("tube-clearance", { clearance });
       },
     };
