@@ -90,7 +90,7 @@ def apply_edits(before: Program, data: bytes, settings: Settings) -> Edited:
                 Fault(within + fault.pointer, fault.detail) for fault in error.faults
             ) from None
     after = program.freeze()
-    _check(after, settings)
+    _check(before, after, settings)
     return Edited(after, program.names, program.hyperedge_names)
 
 
@@ -107,7 +107,7 @@ def _refuse_large_trees(document: JsonValue, settings: Settings) -> None:
             ) from None
 
 
-def _check(program: Program, settings: Settings) -> None:
+def _check(before: Program, program: Program, settings: Settings) -> None:
     trees: list[JsonValue] = [
         {"shape": item.shape.model_dump(mode="json")}
         for item in program.items
@@ -115,7 +115,7 @@ def _check(program: Program, settings: Settings) -> None:
     ]
     try:
         refuse_large_trees({"items": trees}, settings)
-        check(program, settings)
+        check(program, settings, before)
     except DocumentError as error:
         raise type(error)(
             Fault("/edits", f"After these edits, {fault.pointer or 'the program'}: {fault.detail}")
