@@ -70,7 +70,7 @@ def stage(
     """
     laid = layout or lay_out(program, progress=progress)
     progress("making tubes", 0.4)
-    coarse = _coarseness(laid, aspect, height)
+    coarse = _coarseness(laid, laid.routing, aspect, height)
     tubes = (sweeping or make_tubes)(program, laid.routing, coarse.tubes)
     progress("assembling the scene", 0.5)
     notation = load_notation(program.notation)
@@ -105,11 +105,9 @@ def stage_changes(layout: Layout, delta: Delta, aspect: float, height: int) -> S
         labels=tuple(placement.labels[number] for number in items),
         radii=placement.radii[hyperedges],
     )
-    coarse = _coarseness(layout, aspect, height)
-    tolerance = coarse.tubes
-    if isinstance(tolerance, np.ndarray):
-        tolerance = tolerance[hyperedges]
-    tubes = make_tubes(program, layout.routing.part(hyperedges), tolerance)
+    routing = layout.routing.part(hyperedges)
+    coarse = _coarseness(layout, routing, aspect, height)
+    tubes = make_tubes(program, routing, coarse.tubes)
     notation = load_notation(program.notation)
     scene = assemble(program, notation, shown, tubes, aspect, layout.hues[hyperedges], coarse.items)
     removed = {
@@ -157,12 +155,15 @@ class _Coarseness(NamedTuple):
     items: float
 
 
-def _coarseness(layout: Layout, aspect: float, height: int | None) -> _Coarseness:
-    """No more than shows in a picture ``height`` pixels high, where there is one."""
-    routing, program = layout.routing, layout.program
-    finest = TUBE_TOLERANCE * float(routing.radii.min(initial=1.0))
+def _coarseness(layout: Layout, routing: Routing, aspect: float, height: int | None) -> _Coarseness:
+    """For the tubes of ``routing``, a part of the layout's or all, and for items.
+
+    No more than shows in a picture of the whole, ``height`` pixels high, where there is one.
+    """
+    finest = TUBE_TOLERANCE * float(layout.routing.radii.min(initial=1.0))
     if height is None:
         return _Coarseness(finest, 0.0)
-    detail = Detail.of(layout.placement, routing, view_of(program), aspect, height)
-    tubes = detail.tubes(finest) if program.hyperedges else finest
+    view = view_of(layout.program)
+    detail = Detail.of(layout.placement, layout.routing, view, aspect, height)
+    tubes = detail.tubes(routing, finest) if len(routing.radii) else finest
     return _Coarseness(tubes, detail.items())

@@ -31,11 +31,11 @@ _CORNERS = np.array([[i >> 2 & 1, i >> 1 & 1, i & 1] for i in range(8)])
 class Detail:
     """How far meshes may be off in a picture ``height`` pixels high that ``camera`` takes.
 
-    ``back`` is the unit vector from what is seen towards the camera.
+    ``corners`` (8 n, 3) are those of the items' boxes; ``back`` is the unit vector from what is
+    seen towards the camera.
     """
 
-    placement: Placement
-    routing: Routing
+    corners: Floats
     camera: Camera
     back: Floats
     height: int
@@ -53,28 +53,27 @@ class Detail:
         of_tubes = CurveReach.of(routing).farthest if len(routing.radii) else None
         farthest = farther_of(of_tubes, of_items if len(items) else None)
         camera = frame(farthest, view, aspect)
-        return cls(placement, routing, camera, axes_from(view.from_).back, height)
+        return cls(items, camera, axes_from(view.from_).back, height)
 
-    def tubes(self, finest: float) -> Floats:
-        """Of the tubes of each of h hyperedges, (h,), in document units.
+    def tubes(self, routing: Routing, finest: float) -> Floats:
+        """Of the tubes of each of h hyperedges that are seen, (h,), in document units.
 
         `UNSEEN` pixels where the tube comes nearest to the camera, but not less than ``finest``
         (document units), nor more than `COARSEST` of its radius where that is more.
         """
-        low, high = curve_boxes(self.routing).transpose(1, 0, 2)
+        low, high = curve_boxes(routing).transpose(1, 0, 2)
         nearest = (low + high) / 2 @ self.back + (high - low) / 2 @ np.abs(self.back)
         allowed = self._unseen(nearest)
-        return np.maximum(np.minimum(allowed, COARSEST * self.routing.radii), finest)
+        return np.maximum(np.minimum(allowed, COARSEST * routing.radii), finest)
 
     def items(self) -> float:
         """Of all items, in document units: no more than `UNSEEN` pixels at the nearest.
 
         A power of two, so that a picture that shows a little more or less has the same meshes.
         """
-        corners = _item_corners(self.placement)
-        if not len(corners):
+        if not len(self.corners):
             return 0.0
-        nearest = (corners @ self.back).max(keepdims=True)
+        nearest = (self.corners @ self.back).max(keepdims=True)
         return float(2.0 ** np.floor(np.log2(self._unseen(nearest)[0])))
 
     def _unseen(self, nearest: Floats) -> Floats:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import secrets
 import time
-import zlib
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
@@ -16,6 +15,7 @@ from sqlalchemy import Connection, Row, delete, func, insert, select, text, upda
 
 from app.answers import RenderOptions
 from app.errors import Overloaded
+from app.store.deflating import deflater
 from app.store.tables import jobs
 
 State: TypeAlias = Literal["waiting", "running", "done", "failed", "cancelled"]
@@ -25,9 +25,6 @@ OVER: frozenset[State] = frozenset({"done", "failed", "cancelled"})
 
 LOCK = 7_118_253
 """Of PostgreSQL, so that services choose their jobs one after another."""
-
-_LEVEL = 1
-"""Of deflating documents."""
 
 OPTIONS = TypeAdapter(RenderOptions)
 """Options as JSON, and back."""
@@ -107,8 +104,8 @@ def create(connection: Connection, job: NewJob, most_waiting: int) -> Job:
             state="waiting",
             digest=job.digest,
             owner=job.owner,
-            document=zlib.compress(job.document, _LEVEL),
-            layout=None if job.layout is None else zlib.compress(job.layout, _LEVEL),
+            document=deflater.deflate(job.document),
+            layout=None if job.layout is None else deflater.deflate(job.layout),
             options=OPTIONS.dump_json(job.options).decode(),
             deadline_seconds=job.deadline_seconds,
             created_at=created_at,

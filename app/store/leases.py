@@ -7,7 +7,6 @@ holds the lease may end a job, so none is ended twice.
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -15,6 +14,7 @@ from typing import Any
 from sqlalchemy import ColumnElement, Connection, case, func, or_, select, update
 
 from app.answers import RenderOptions
+from app.store.deflating import deflater
 from app.store.jobs import OPTIONS, now, one_at_a_time
 from app.store.tables import jobs
 
@@ -187,8 +187,8 @@ def _next(connection: Connection, by: str, until: int) -> Task | None:
         row.digest,
         _start(connection, by, until, row.digest, attempts),
         attempts,
-        zlib.decompress(row.document),
-        None if row.layout is None else zlib.decompress(row.layout),
+        deflater.inflate(row.document),
+        None if row.layout is None else deflater.inflate(row.layout),
         OPTIONS.validate_json(row.options),
         row.deadline_seconds,
     )

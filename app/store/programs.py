@@ -8,7 +8,6 @@ the one before, and it goes sooner than others.
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Sequence
 from typing import Any
 
@@ -18,11 +17,9 @@ from sqlalchemy.exc import IntegrityError
 from app.answers import Revised
 from app.errors import Outdated
 from app.program.changes import Changes
+from app.store.deflating import deflater
 from app.store.records import Cause, Content, Head, Listed, Record
 from app.store.tables import programs, revisions
-
-_LEVEL = 1
-"""Of deflating: documents become many times smaller, at some 100 kB in a millisecond."""
 
 _LONGEST_NAME = 500
 
@@ -71,7 +68,7 @@ def load(connection: Connection, program: str, number: int | None = None) -> Con
     row = connection.execute(query).one_or_none()
     if row is None:
         return None
-    return Content(_record(row), zlib.decompress(row.document), zlib.decompress(row.layout))
+    return Content(_record(row), deflater.inflate(row.document), deflater.inflate(row.layout))
 
 
 def kept_after(connection: Connection, program: str, number: int) -> list[Record]:
@@ -253,8 +250,8 @@ def _insert(connection: Connection, record: Record, document: bytes, layout: byt
             items=record.items,
             hyperedges=record.hyperedges,
             digest=record.digest,
-            document=zlib.compress(document, _LEVEL),
-            layout=zlib.compress(layout, _LEVEL),
+            document=deflater.deflate(document),
+            layout=deflater.deflate(layout),
             changes=record.changes.to_json(),
             undo_to=record.undo_to,
             redo_to=record.redo_to,

@@ -46,7 +46,7 @@ def test_meshes_are_off_by_a_tenth_of_a_pixel_at_most(
 ) -> None:
     program = program_in_a_grid(40, items=400, view={"projection": projection})
     placement, routing = both
-    allowed = Detail.of(placement, routing, program.view, ASPECT, height).tubes(FINEST)
+    allowed = Detail.of(placement, routing, program.view, ASPECT, height).tubes(routing, FINEST)
     tubes = sweep(routing, allowed)
     camera = assemble(program, load_notation("plain"), placement, tubes, ASPECT).camera
     for number, off in enumerate(allowed):
@@ -60,7 +60,7 @@ def test_meshes_are_off_by_a_tenth_of_a_pixel_at_most(
 def test_far_tubes_may_be_off_further(both: tuple[Placement, Routing]) -> None:
     view = View.model_validate({"from": [0, -1, 0.1], "field_of_view": 60})
     placement, routing = both
-    allowed = Detail.of(placement, routing, view, ASPECT, 1000).tubes(FINEST)
+    allowed = Detail.of(placement, routing, view, ASPECT, 1000).tubes(routing, FINEST)
     nearest = [
         points[:, :, 1].min()
         for points in np.split(routing.control_points, routing.segment_starts[1:-1])
@@ -73,20 +73,20 @@ def test_twice_the_picture_is_twice_as_fine(both: tuple[Placement, Routing]) -> 
     placement, routing = both
 
     def at(height: int) -> Floats:
-        return Detail.of(placement, routing, View(), ASPECT, height).tubes(FINEST)
+        return Detail.of(placement, routing, View(), ASPECT, height).tubes(routing, FINEST)
 
     assert at(2000) == pytest.approx(at(1000) / 2)
 
 
 def test_no_tube_is_off_by_more_than_half_its_radius(both: tuple[Placement, Routing]) -> None:
     placement, routing = both
-    allowed = Detail.of(placement, routing, View(), ASPECT, 1).tubes(FINEST)
+    allowed = Detail.of(placement, routing, View(), ASPECT, 1).tubes(routing, FINEST)
     assert np.array_equal(allowed, COARSEST * routing.radii)
 
 
 def test_no_tube_is_finer_than_the_finest(both: tuple[Placement, Routing]) -> None:
     placement, routing = both
-    allowed = Detail.of(placement, routing, View(), ASPECT, 10**9).tubes(0.002)
+    allowed = Detail.of(placement, routing, View(), ASPECT, 10**9).tubes(routing, 0.002)
     assert np.array_equal(allowed, np.full(40, 0.002))
 
 
@@ -95,7 +95,9 @@ def test_coarse_tubes_have_fewer_triangles_and_stay_where_they_are(
 ) -> None:
     placement, routing = both
     fine = sweep(routing, 0.02 * 0.08)
-    coarse = sweep(routing, Detail.of(placement, routing, View(), ASPECT, 100).tubes(0.02 * 0.08))
+    coarse = sweep(
+        routing, Detail.of(placement, routing, View(), ASPECT, 100).tubes(routing, 0.02 * 0.08)
+    )
     assert len(coarse.faces) < len(fine.faces) / 8
     assert np.isfinite(coarse.vertices).all()
     assert np.linalg.norm(coarse.normals, axis=1) == pytest.approx(1, abs=1e-5)
@@ -116,7 +118,7 @@ def test_without_items_the_hyperedges_alone_are_seen() -> None:
         rotations=np.zeros((0, 4)),
         sizes=np.zeros((0, 3)),
     )
-    allowed = Detail.of(bare, routing, View(), ASPECT, 1000).tubes(FINEST)
+    allowed = Detail.of(bare, routing, View(), ASPECT, 1000).tubes(routing, FINEST)
     assert (allowed > 0).all()
     assert allowed.max() < 0.1
 
@@ -131,7 +133,7 @@ def test_items_are_as_fine_as_shows_at_the_nearest(both: tuple[Placement, Routin
     assert 0.5 * UNSEEN * pixel < allowed <= UNSEEN * pixel
     assert Detail.of(placement, routing, view, ASPECT, 2000).items() == allowed / 2
     near = Detail.of(placement, routing, View(), ASPECT, 1000)
-    assert near.items() < near.tubes(FINEST).max()
+    assert near.items() < near.tubes(routing, FINEST).max()
 
 
 def test_where_nothing_is_seen_there_is_no_detail() -> None:
