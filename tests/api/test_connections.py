@@ -3,10 +3,11 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 import httpx
+import pytest
 
 from app.api.connections import HEAD_BYTES
 from tests.api.raw import connect, exchange, host_of, received, status_of
-from tests.service import Service, until
+from tests.service import Service
 
 SECONDS = 1
 """That a head, and a body, may take to come to the strict service."""
@@ -96,20 +97,31 @@ def test_a_connection_goes_on_for_who_behaves(strict: Service) -> None:
 
 
 def _refused(client: httpx.Client, body: bytes) -> httpx.Response | None:
-    answer = client.post("/v1/layout", content=body)
-    return answer if answer.status_code == 503 else None
+    """The answer that there is no room, as soon as the service has taken what others have sent."""
+    end = time.monotonic() + SECONDS
+    while time.monotonic() < end:
+        answer = client.post("/v1/layout", content=body)
+        if answer.status_code == 503:
+            return answer
+    return None
 
 
 def test_more_bodies_than_may_be_held_wait_outside(strict: Service) -> None:
-    with connect(strict) as first, strict.client() as client:
-        first.sendall(head(strict, 950_000) + b" " * 900_000)
-        # As soon as the service has taken what was sent.
-        refused = until(lambda: _refused(client, b" " * 200_000))
-        assert refused.json()["type"] == "urn:tubeloom:problem:overloaded"
-        assert refused.headers["retry-after"] == "2"
-        assert client.post("/v1/layout", content=b" " * 50_000).status_code == 400
-        assert status_of(received(first)) == 408
-        # What was held has been given back.
-        assert client.post("/v1/layout", content=b" " * 900_000).status_code == 400
+    # A body is held for a second, in which a busy machine may get to nothing.
+    for _ in range(20):
+        with connect(strict) as first, strict.client() as client:
+            first.sendall(head(strict, 950_000) + b" " * 900_000)
+            refused = _refused(client, b" " * 200_000)
+            if refused is None:
+                continue
+            assert refused.json()["type"] == "urn:tubeloom:problem:overloaded"
+            assert refused.headers["retry-after"] == "2"
+            assert client.post("/v1/layout", content=b" " * 50_000).status_code == 400
+            assert status_of(received(first)) == 408
+            # What was held has been given back.
+            assert client.post("/v1/layout", content=b" " * 900_000).status_code == 400
+            break
+    else:
+        pytest.fail("Nothing was refused.")
     for _ in range(3):
         assert httpx.post(f"{strict.url}/v1/layout", content=b" " * 900_000).status_code == 400
