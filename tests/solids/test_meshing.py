@@ -108,7 +108,8 @@ def test_a_rounded_box_has_the_volume_of_a_box_swept_by_a_ball(
     faces, quarters = 2 * edge * (x * y + y * z + z * x), pi * edge**2 * (x + y + z)
     exact = x * y * z + faces + quarters + 4 / 3 * pi * edge**3
     mesh = mesh_of(Box(size, edge))
-    assert welded(mesh).volume == pytest.approx(exact, rel=0.06 if edge else 1e-4)
+    # The coarsest polygon has eight sides, and the area of its circle but for a tenth.
+    assert 0.9 * exact <= welded(mesh).volume <= 1.0001 * exact
 
 
 def test_a_box_with_an_edge_beyond_its_half_becomes_a_pebble() -> None:
