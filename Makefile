@@ -31,6 +31,7 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	$(PIP) install --require-hashes -r requirements.lock
 	$(PIP) install --no-deps --editable .
 	@echo "Compiling kernels, once: some two minutes …"
+	$(BIN)/tubeloom layout examples/id3-clause-2.json -o $(VENV)/id3.json
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.glb
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.svg
 	$(BIN)/tubeloom render examples/paper-curves.json -o $(VENV)/paper.glb

@@ -17,12 +17,12 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 def foot(x: float, y: float) -> End:
-    return End(True, np.array([x, y, 0.5]), UP, np.array([x, y]), 0.5)
+    return End(True, np.array([x, y, 0.5]), UP, np.array([x, y], dtype=np.float64), 0.5)
 
 
 def join(x: float, y: float, angle: float) -> End:
     direction = np.array([np.cos(angle), np.sin(angle), 0.0])
-    return End(False, np.array([x, y, PLANE]), direction, np.array([x, y]), PLANE)
+    return End(False, np.array([x, y, PLANE]), direction, np.array([x, y], dtype=np.float64), PLANE)
 
 
 def way_between(start: End, end: End, *corners: tuple[float, float]) -> Floats:
