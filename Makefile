@@ -5,12 +5,14 @@ PYTHON ?= $(shell for python in python3.13 python3.12 python3.11 python3; do \
     2>/dev/null && command -v $$python && break; done)
 VENV := .venv
 BIN := $(VENV)/bin
+# Where the machine's Node.js is too old, the virtual environment has one.
+export PATH := $(CURDIR)/$(BIN):$(PATH)
 PORT ?= 8000
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 WEB_SOURCES := $(shell find app/web/source app/web/*.json app/web/*.js clients/typescript/src clients/react-flow/src examples -type f 2>/dev/null)
 
-.PHONY: help run setup setup-dev web test check format bench faults load openapi palettes pictures lock clean
+.PHONY: help run setup setup-dev web test check format fresh bench faults load openapi palettes pictures lock clean
 
 help:  ## list what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  \1\t/' | expand -t 14
@@ -37,11 +39,12 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	$(BIN)/tubeloom render examples/paper-curves.json -o $(VENV)/paper.glb
 	@touch $@
 
-app/web/built: $(WEB_SOURCES) tools/build-web.sh | $(VENV)/bin/python
+app/web/built: $(WEB_SOURCES) tools/build-web.sh tools/node.sh | $(VENV)/bin/python
 	tools/build-web.sh $(BIN)/python
 
 $(VENV)/dev.done: requirements-dev.lock tests/node/package-lock.json clients/typescript/package-lock.json $(VENV)/runtime.done
 	tools/system-packages.sh test
+	tools/node.sh $(BIN)/python
 	$(PIP) install --require-hashes -r requirements-dev.lock
 	cd tests/node && npm ci --no-audit --no-fund --loglevel=error
 	cd clients/typescript && npm ci --no-audit --no-fund --loglevel=error
@@ -62,11 +65,14 @@ check: setup-dev  ## format, lint, types, import rules, of pages too
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	PATH="$$PATH:$(abspath $(BIN))" npm --prefix app/web run --silent check
+	npm --prefix app/web run --silent check
 
 format: setup-dev  ## put the code in order
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
+
+fresh:  ## prove both commands of the README on bare roots of Debian 12 and 13 (as root, some GB)
+	$(if $(PYTHON),$(PYTHON),python3) tools/fresh.py $(FRESH)
 
 bench: $(VENV)/bench.done  ## measure speed, beside peers, and print the tables
 	$(BIN)/python -m benchmarks

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
@@ -19,6 +20,9 @@ settings.load_profile("untimed")
 # tests rewrites all their assertions anew, which takes a dozen seconds.
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+# The Node.js of the virtual environment, if it has one, goes before the machine's: that one is too old.
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 
 LONG = (
     *("cluster", "editor", "shelf", "jobs_survive", "examples", "jobs", "stored_under_stress"),

@@ -4,30 +4,36 @@
 # `system-packages.sh bench` to what is measured beside Tubeloom.
 set -euo pipefail
 
-has_library() { ldconfig -p 2>/dev/null | grep -q "$1"; }
+# Not by a pipe into `grep -q`: that ends while ldconfig still writes, which counts as a failure.
+libraries=$(PATH="$PATH:/sbin:/usr/sbin" ldconfig -p 2>/dev/null || true)
+has_library() { [[ $libraries == *"$1"* ]]; }
 has_package() { [ -n "$(apt-cache policy "$1" 2>/dev/null | sed -n 's/ *Candidate: \([^(].*\)/\1/p')" ]; }
 
 lacks=()
-if [ "${1:-}" = test ]; then
-  has_library libOSMesa.so || lacks+=(osmesa)
-  has_library libEGL.so.1 && has_library libEGL_mesa || lacks+=(egl)
-  command -v node >/dev/null && command -v npm >/dev/null || lacks+=(node)
-  command -v chromium >/dev/null || lacks+=(chromium)
-  ls /usr/lib/postgresql/*/bin/postgres >/dev/null 2>&1 || lacks+=(postgres)
-elif [ "${1:-}" = bench ]; then
-  command -v neato >/dev/null && command -v sfdp >/dev/null || lacks+=(graphviz)
-  command -v wrk >/dev/null || lacks+=(wrk)
-elif ! has_library libOSMesa.so && ! has_library libEGL_mesa; then
-  lacks+=(osmesa)
-fi
-# Final pictures do not come without it.
-if [ "${1:-}" = "" ] && ! has_library libatomic.so.1; then
-  lacks+=(atomic)
-fi
-# Final pictures are four times as quick with it; they come without it too.
-if [ "${1:-}" = "" ] && ! ldconfig -p 2>/dev/null | grep -qE 'libLLVM(-|\.so\.)(1[7-9]|2[0-9])'; then
-  lacks+=(llvm)
-fi
+case "${1:-}" in
+  "")
+    has_library libOSMesa.so || has_library libEGL_mesa || lacks+=(mesa)
+    # pyrender loads libGL even where OSMesa draws.
+    has_library libGL.so.1 || lacks+=(gl)
+    # Final pictures do not come without libatomic, and are four times as quick with LLVM.
+    has_library libatomic.so.1 || lacks+=(atomic)
+    [[ $libraries =~ libLLVM(-|\.so\.)(1[7-9]|2[0-9]) ]] || lacks+=(llvm)
+    ;;
+  test)
+    has_library libOSMesa.so || lacks+=(mesa)
+    has_library libEGL.so.1 && has_library libEGL_mesa || lacks+=(egl)
+    command -v chromium >/dev/null || lacks+=(chromium)
+    ls /usr/lib/postgresql/*/bin/postgres >/dev/null 2>&1 || lacks+=(postgres)
+    ;;
+  bench)
+    command -v neato >/dev/null && command -v sfdp >/dev/null || lacks+=(graphviz)
+    command -v wrk >/dev/null || lacks+=(wrk)
+    ;;
+  *)
+    echo "usage: system-packages.sh [test|bench]" >&2
+    exit 2
+    ;;
+esac
 [ ${#lacks[@]} -eq 0 ] && exit 0
 
 apt=no
@@ -40,7 +46,8 @@ packages=()
 for part in "${lacks[@]}"; do
   case $part in
     # Mesa 25.1 and later have no OSMesa; EGL draws there.
-    osmesa) if [ $apt = no ] || has_package libosmesa6; then packages+=(libosmesa6); else packages+=(libegl1 libegl-mesa0 libgl1 libxrender1); fi ;;
+    mesa) if [ $apt = no ] || has_package libosmesa6; then packages+=(libosmesa6); else packages+=(libegl1 libegl-mesa0 libgl1-mesa-dri); fi ;;
+    gl) packages+=(libgl1) ;;
     llvm)
       for version in 21 20 19 18 17; do
         if [ $apt = no ] || has_package libllvm$version; then
@@ -51,12 +58,11 @@ for part in "${lacks[@]}"; do
       done
       ;;
     atomic) packages+=(libatomic1) ;;
-    egl) packages+=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri libxrender1) ;;
+    egl) packages+=(libegl1 libegl-mesa0 libgl1-mesa-dri) ;;
     chromium) packages+=(chromium) ;;
     postgres) packages+=(postgresql) ;;
     graphviz) packages+=(graphviz) ;;
     wrk) packages+=(wrk) ;;
-    node) packages+=(nodejs npm) ;;
   esac
 done
 

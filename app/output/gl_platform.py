@@ -24,15 +24,15 @@ _EGL_EXTENSIONS = 0x3055
 _EGL_PLATFORM_DEVICE = 0x313F
 _MOST_DEVICES = 16
 
-_LIBRARIES: dict[Platform, tuple[tuple[str, ...], ...]] = {
-    "osmesa": (("OSMesa",),),
-    "egl": (("EGL",), ("OpenGL", "GL")),
+_LIBRARIES: dict[Platform, tuple[str, ...]] = {
+    "osmesa": ("OSMesa", "GL"),
+    "egl": ("EGL", "GL"),
 }
-"""What each platform loads: one of each group."""
+"""What each platform loads. pyrender loads libGL in any case, since pyglet does."""
 
 _PACKAGES: dict[Platform, str] = {
-    "osmesa": "libosmesa6",
-    "egl": "libegl1 libopengl0 libgl1-mesa-dri",
+    "osmesa": "libosmesa6 libgl1",
+    "egl": "libegl1 libegl-mesa0 libgl1-mesa-dri libgl1",
 }
 
 
@@ -148,15 +148,11 @@ def _extension(egl: ctypes.CDLL, name: bytes, *prototype: Any) -> Any:
 
 
 def _has(platform: Platform) -> bool:
-    return all(any(library_exists(name) for name in group) for group in _LIBRARIES[platform])
+    return all(library_exists(name) for name in _LIBRARIES[platform])
 
 
 def _missing(platform: Platform) -> str:
-    return " and ".join(
-        " or ".join(f"lib{name}" for name in group)
-        for group in _LIBRARIES[platform]
-        if not any(library_exists(name) for name in group)
-    )
+    return " and ".join(f"lib{name}" for name in _LIBRARIES[platform] if not library_exists(name))
 
 
 @lru_cache

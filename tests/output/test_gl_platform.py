@@ -44,14 +44,17 @@ def test_osmesa_comes_before_egl_in_software(machine: Machine) -> None:
 
 
 def test_egl_is_taken_where_there_is_no_osmesa(machine: Machine) -> None:
-    machine.libraries = {"EGL", "OpenGL"}
+    machine.libraries = {"EGL", "GL"}
     assert find_platform("auto") == "egl"
 
 
-def test_egl_needs_a_library_of_opengl_too(machine: Machine) -> None:
-    machine.libraries = {"EGL"}
-    with pytest.raises(RendererUnavailable, match="libOpenGL or libGL"):
-        find_platform("egl")
+@pytest.mark.parametrize(("platform", "library"), [("osmesa", "OSMesa"), ("egl", "EGL")])
+def test_each_platform_needs_libgl_too(
+    machine: Machine, platform: gl_platform.Platform, library: str
+) -> None:
+    machine.libraries = {library}
+    with pytest.raises(RendererUnavailable, match=r"has no libGL: apt-get install .*libgl1"):
+        find_platform(platform)
 
 
 def test_a_wish_is_not_overruled(machine: Machine) -> None:
@@ -65,12 +68,12 @@ def test_the_problem_says_what_is_missing_and_how_to_install_it(machine: Machine
     machine.libraries = set()
     problem = draft_problem()
     assert problem is not None
-    for part in ("libOSMesa", "libEGL", "apt-get install libosmesa6", "libegl1"):
+    for part in ("libOSMesa and libGL", "libEGL", "apt-get install libosmesa6 libgl1", "libegl1"):
         assert part in problem
 
 
 def test_there_is_no_problem_where_a_library_is_found(machine: Machine) -> None:
-    machine.libraries = {"OSMesa"}
+    machine.libraries = {"OSMesa", "GL"}
     assert draft_problem() is None
 
 
