@@ -15,7 +15,7 @@ from starlette.responses import JSONResponse
 
 from app.answers import RenderOptions
 from app.errors import Overloaded, RendererUnavailable, TubeloomError
-from app.jobs.executor import WorkerPool
+from app.jobs.executor import NOT_DRAWN, WorkerPool
 from app.output.media import SceneFormat
 from app.store.database import Database
 from app.store.health import check
@@ -46,10 +46,10 @@ class Workers(BaseModel):
 
 
 class Draft(BaseModel):
-    """Whether draft pictures can be drawn here."""
+    """Whether draft pictures can be drawn here: whether the last one that was asked for came."""
 
     available: bool
-    problem: str | None = Field(description="What is missing, and how to install it.")
+    problem: str | None = Field(description="Why they do not come, and what to install.")
 
 
 class Store(BaseModel):
@@ -98,7 +98,9 @@ class Examiner:
                 if workers or database:
                     log.warning("not ready", workers=workers, database=database)
                 self._found = Findings(workers, database)
-                self._until = time.monotonic() + self._seconds
+                # While workers start, and until one has drawn, the next who asks looks again.
+                if self._pool.draft_problem != NOT_DRAWN:
+                    self._until = time.monotonic() + self._seconds
         return self._found
 
     async def _draw(self) -> str | None:

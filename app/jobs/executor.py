@@ -14,11 +14,21 @@ from typing import Literal, Self
 
 import structlog
 
-from app.answers import Answer, Change, Options, Revised, ReviseOptions, Unchanged, is_slow
-from app.errors import DeadlineExceeded, Overloaded, WorkerLost
+from app.answers import (
+    Answer,
+    Change,
+    Options,
+    RenderOptions,
+    Revised,
+    ReviseOptions,
+    Unchanged,
+    is_slow,
+)
+from app.errors import DeadlineExceeded, Overloaded, RendererUnavailable, WorkerLost
 from app.jobs.launch import Launched
 from app.jobs.process import Listener, WorkerDiedError, WorkerProcess
-from app.jobs.work import Crash, Reply, Stage, Work
+from app.jobs.work import Crash, Outcome, Reply, Stage, Work
+from app.output.media import SceneFormat
 from app.settings import Settings
 
 log = structlog.get_logger("tubeloom.jobs")
@@ -36,6 +46,8 @@ better told at once, and a line that has grown is soon gone again."""
 
 SHORT_LINE = 4
 """Works for each worker, which may wait however long those before them take."""
+
+NOT_DRAWN = "No worker has drawn a picture yet."
 
 LONGEST_PAUSE_SECONDS = 30.0
 """Between attempts to start workers that die at their start."""
@@ -91,8 +103,8 @@ class WorkerPool:
         self._usual_seconds = 0.0
         self.warm = 0
         """How many workers are alive and have warmed up."""
-        self.draft_problem: str | None = "No worker has started yet."
-        """Why drafts cannot be drawn here, if they cannot."""
+        self.draft_problem: str | None = NOT_DRAWN
+        """Why drafts cannot be drawn here, as far as is known; ``None`` once one was drawn."""
         self.lost = 0
         """How many workers have died at work, by themselves or at the deadline."""
         self.witness: Witness = _unwitnessed
@@ -160,6 +172,7 @@ class WorkerPool:
             try:
                 reply, pieces = await self._do(worker, work, document, listener)
                 stages = reply.stages
+                self._learn(work.options, reply.outcome)
             except WorkerDiedError:
                 self.lost += 1
                 log.warning("worker died at work", pid=worker.pid, attempt=attempt)
@@ -231,6 +244,17 @@ class WorkerPool:
             raise Overloaded("No worker became free in time; try again soon.")
         return place.result()
 
+    def _learn(self, options: Options, outcome: Outcome) -> None:
+        """Take from each draft that was asked for whether this machine can draw."""
+        if not isinstance(options, RenderOptions):
+            return
+        if options.format is not SceneFormat.PNG or options.quality != "draft":
+            return
+        if isinstance(outcome, Answer):
+            self.draft_problem = None
+        elif isinstance(outcome, RendererUnavailable):
+            self.draft_problem = str(outcome)
+
     def _is_line_full(self) -> bool:
         """Whether nobody else should wait."""
         waiting, workers = len(self._line), self._settings.workers
@@ -281,7 +305,8 @@ class WorkerPool:
         if isinstance(first, Crash):
             log.error("worker did not start", pid=worker.pid, traceback=first.traceback)
             return False
-        self.draft_problem = first.draft_problem
+        if first.draft_problem is not None:
+            self.draft_problem = first.draft_problem
         log.info("worker ready", pid=worker.pid, draft_problem=first.draft_problem)
         return True
 

@@ -61,6 +61,6 @@ class Reply:
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """A worker is warm. ``draft_problem`` says why it cannot draw drafts, if it cannot."""
+    """A worker is warm. ``draft_problem`` says what it lacks to draw drafts, if it lacks something."""
 
     draft_problem: str | None

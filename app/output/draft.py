@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -81,14 +82,14 @@ def draw(scene: Scene, width: int, height: int, samples: int, side: int = MOST_S
     return _picture(scene, pixels)
 
 
+@lru_cache(maxsize=1)
 def draw_pixel() -> None:
-    """Draw one pixel, to learn whether this machine can, and to be quick with the next.
+    """Draw one pixel of a white card, to learn whether this machine can; once in each process.
 
     For a process that draws: it loads OpenGL. Raises `RendererUnavailable` where nothing comes.
     """
-    picture = draw(_TEST_CARD, 1, 1, samples=4)
-    encode_png(picture)
-    if picture.getpixel((0, 0)) == (0, 0, 0):
+    (pixels,) = _pictures(_TEST_CARD, [_TEST_CARD.camera], 1, 1, 4, MOST_SIDE)
+    if not pixels[0, 0, :3].any():
         raise RendererUnavailable("OpenGL starts on this machine, but draws nothing.")
 
 
@@ -99,6 +100,19 @@ def _drawn(
     height: int,
     samples: int,
     side: int = MOST_SIDE,
+) -> Iterator[Pixels]:
+    """One picture for each camera, by OpenGL that has been seen to draw."""
+    draw_pixel()
+    return _pictures(scene, cameras, width, height, samples, side)
+
+
+def _pictures(
+    scene: Scene,
+    cameras: Sequence[Camera],
+    width: int,
+    height: int,
+    samples: int,
+    side: int,
 ) -> Iterator[Pixels]:
     """One picture for each camera; the next is drawn while one is looked at."""
     background = _clear_color(scene)

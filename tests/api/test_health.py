@@ -8,10 +8,11 @@ import httpx
 import pytest
 
 from app.api.health import Examiner
-from app.jobs.executor import WorkerPool
+from app.jobs.executor import NOT_DRAWN, WorkerPool
 from app.main import create_app
 from app.settings import Settings
 from app.store.database import Database
+from tests.conftest import require
 from tests.service import SMALL, Service, running_service, until
 
 
@@ -65,6 +66,9 @@ def examined(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Service
         yield service, folder / "data"
 
 
+WORKS = {"ready", "degraded"}
+
+
 def readiness(service: Service, shows: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
     """What it says of itself as soon as that shows what it should."""
     with service.client() as client:
@@ -72,7 +76,7 @@ def readiness(service: Service, shows: Callable[[dict[str, Any]], bool]) -> dict
         def ask() -> dict[str, Any] | None:
             response = client.get("/readyz")
             found: dict[str, Any] = response.json()
-            assert response.status_code == (200 if found["status"] == "ready" else 503)
+            assert response.status_code == (200 if found["status"] in WORKS else 503)
             return found if shows(found) else None
 
         return until(ask)
@@ -106,6 +110,36 @@ def lost_workers(client: httpx.Client) -> float:
     return figure(client, "tubeloom_workers_lost_total")
 
 
+def test_what_does_not_draw_is_not_called_available(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    vendors = Path("/usr/share/glvnd/egl_vendor.d")
+    require(vendors.is_dir(), "EGL's vendors are not where they usually are.")
+    drivers = tmp_path / "drivers"
+    monkeypatch.setenv("__EGL_VENDOR_LIBRARY_DIRS", str(drivers))
+    with running_service(tmp_path, gl_platform="egl", examine_seconds=1) as service:
+
+        def found_by_a_new_worker(status: str) -> dict[str, Any]:
+            for worker in service.workers():
+                worker.kill()
+            found = readiness(service, lambda found: bool(found["status"] == status))
+            assert isinstance(found["draft"], dict)
+            return found["draft"]
+
+        # EGL is there, but has nothing to draw with.
+        broken = found_by_a_new_worker("degraded")
+        assert broken["available"] is False
+        assert "OpenGL was found (egl) but does not start" in broken["problem"]
+        with service.client() as client:
+            assert client.post("/v1/render", json=SMALL).status_code == 200
+            refused = client.post("/v1/render?format=png", json=SMALL)
+            assert (refused.status_code, refused.json()["detail"]) == (503, broken["problem"])
+        drivers.symlink_to(vendors)
+        assert found_by_a_new_worker("ready") == {"available": True, "problem": None}
+        drivers.unlink()
+        assert found_by_a_new_worker("degraded") == broken
+
+
 # Nothing can be done with that service afterwards.
 def test_a_database_that_cannot_be_read_is_noticed(examined: tuple[Service, Path]) -> None:
     service, data = examined
@@ -120,8 +154,9 @@ def test_a_database_that_cannot_be_read_is_noticed(examined: tuple[Service, Path
 @pytest.mark.parametrize(
     ("warm", "problem", "status", "word"),
     [
-        (0, "No worker has started yet.", 503, "starting"),
+        (0, NOT_DRAWN, 503, "starting"),
         (1, None, 200, "ready"),
+        (1, NOT_DRAWN, 200, "degraded"),
         (1, "Install libosmesa6.", 200, "degraded"),
     ],
 )
