@@ -21,7 +21,7 @@ settings.load_profile("untimed")
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
-# The Node.js of the virtual environment, if it has one, goes before the machine's: that one is too old.
+# Where the machine's Node.js is too old, the virtual environment has one.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 
 LONG = (

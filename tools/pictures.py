@@ -35,7 +35,7 @@ def main() -> None:
     for name, source, width, height in PICTURES:
         options = RenderOptions(SceneFormat.PNG, 2 * width, 2 * height, source=source)
         answer = render((ROOT / "examples" / f"{name}.json").read_bytes(), options, Settings())
-        assert isinstance(answer, Answer)  # noqa: S101 - nobody has it already
+        assert isinstance(answer, Answer)
         picture = Image.open(io.BytesIO(answer.body))
         target = ROOT / "docs" / "pictures" / f"{Path(name).name}.png"
         picture.resize((width, height), Image.Resampling.LANCZOS).save(target, optimize=True)
@@ -43,7 +43,7 @@ def main() -> None:
 
 def _keep(name: str, document: bytes, options: RenderOptions) -> None:
     answer = render(document, options, Settings(deadline_seconds=600))
-    assert isinstance(answer, Answer)  # noqa: S101 - nobody has it already
+    assert isinstance(answer, Answer)
     (ROOT / "docs" / "pictures" / name).write_bytes(answer.body)
 
 

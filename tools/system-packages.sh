@@ -13,8 +13,9 @@ lacks=()
 case "${1:-}" in
   "")
     has_library libOSMesa.so || has_library libEGL_mesa || lacks+=(mesa)
-    # pyrender loads libGL even where OSMesa draws.
+    # pyrender imports pyglet, which loads these even where nothing is shown on a screen.
     has_library libGL.so.1 || lacks+=(gl)
+    has_library libXrender.so.1 || lacks+=(xrender)
     # Final pictures do not come without libatomic, and are four times as quick with LLVM.
     has_library libatomic.so.1 || lacks+=(atomic)
     [[ $libraries =~ libLLVM(-|\.so\.)(1[7-9]|2[0-9]) ]] || lacks+=(llvm)
@@ -48,6 +49,7 @@ for part in "${lacks[@]}"; do
     # Mesa 25.1 and later have no OSMesa; EGL draws there.
     mesa) if [ $apt = no ] || has_package libosmesa6; then packages+=(libosmesa6); else packages+=(libegl1 libegl-mesa0 libgl1-mesa-dri); fi ;;
     gl) packages+=(libgl1) ;;
+    xrender) packages+=(libxrender1) ;;
     llvm)
       for version in 21 20 19 18 17; do
         if [ $apt = no ] || has_package libllvm$version; then

@@ -61,6 +61,6 @@ class Reply:
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """A worker is warm. ``draft_problem`` says what it lacks to draw drafts, if it lacks something."""
+    """A worker is warm. ``draft_problem`` says what it lacks to draw drafts, if anything."""
 
     draft_problem: str | None

@@ -25,14 +25,14 @@ _EGL_PLATFORM_DEVICE = 0x313F
 _MOST_DEVICES = 16
 
 _LIBRARIES: dict[Platform, tuple[str, ...]] = {
-    "osmesa": ("OSMesa", "GL"),
-    "egl": ("EGL", "GL"),
+    "osmesa": ("OSMesa", "GL", "Xrender"),
+    "egl": ("EGL", "GL", "Xrender"),
 }
-"""What each platform loads. pyrender loads libGL in any case, since pyglet does."""
+"""What each platform loads. libGL and libXrender are there for pyglet, which pyrender imports."""
 
 _PACKAGES: dict[Platform, str] = {
-    "osmesa": "libosmesa6 libgl1",
-    "egl": "libegl1 libegl-mesa0 libgl1-mesa-dri libgl1",
+    "osmesa": "libosmesa6 libgl1 libxrender1",
+    "egl": "libegl1 libegl-mesa0 libgl1-mesa-dri libgl1 libxrender1",
 }
 
 

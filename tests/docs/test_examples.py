@@ -1,9 +1,7 @@
 """What README and docs show is run as it stands there."""
 
 import json
-import os
 import re
-import subprocess
 from pathlib import Path
 
 import pytest
@@ -11,6 +9,7 @@ import pytest
 from app.program.reading import read_program
 from app.settings import Settings
 from tests.service import Service
+from tools.readme import check_picture, run_block
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -47,14 +46,7 @@ def cancel_jobs(service: Service) -> None:
 
 @pytest.mark.parametrize("commands", COMMANDS)
 def test_commands_do_what_they_say(commands: str, usual_service: Service, tmp_path: Path) -> None:
-    for name in ("examples", ".venv"):
-        (tmp_path / name).symlink_to(ROOT / name)
-    script = commands.replace("http://127.0.0.1:8000", usual_service.url)
-    script = re.sub(r"\bcurl\b", "curl --silent --show-error --fail-with-body", script)
-    done = subprocess.run(
-        ["bash", "-euo", "pipefail", "-c", script],
-        cwd=tmp_path, capture_output=True, text=True, check=False, env=os.environ,
-    )  # fmt: skip
+    done = run_block(commands, usual_service.url, tmp_path)
     cancel_jobs(usual_service)
     assert done.returncode == 0, done.stdout + done.stderr
     made = [path for path in tmp_path.iterdir() if path.is_file()]
@@ -62,6 +54,8 @@ def test_commands_do_what_they_say(commands: str, usual_service: Service, tmp_pa
     for path in made:
         data = path.read_bytes()
         assert data.startswith(SIGNATURES[path.suffix])
+        if path.suffix == ".png":
+            check_picture(data)
 
 
 @pytest.mark.parametrize(("page", "block"), blocks("json"))

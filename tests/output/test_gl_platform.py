@@ -15,6 +15,9 @@ from app.errors import RendererUnavailable
 from app.output import gl_platform
 from app.output.gl_platform import draft_problem, find_platform, gpu_device
 
+SHARED = ("GL", "Xrender")
+"""What pyglet loads, whatever draws."""
+
 
 class Machine:
     """Which libraries the dynamic linker finds."""
@@ -39,26 +42,28 @@ def machine(monkeypatch: pytest.MonkeyPatch) -> Iterator[Machine]:
 
 
 def test_osmesa_comes_before_egl_in_software(machine: Machine) -> None:
-    machine.libraries = {"OSMesa", "EGL", "GL"}
+    machine.libraries = {"OSMesa", "EGL", *SHARED}
     assert find_platform("auto") == "osmesa"
 
 
 def test_egl_is_taken_where_there_is_no_osmesa(machine: Machine) -> None:
-    machine.libraries = {"EGL", "GL"}
+    machine.libraries = {"EGL", *SHARED}
     assert find_platform("auto") == "egl"
 
 
+@pytest.mark.parametrize("missing", SHARED)
 @pytest.mark.parametrize(("platform", "library"), [("osmesa", "OSMesa"), ("egl", "EGL")])
-def test_each_platform_needs_libgl_too(
-    machine: Machine, platform: gl_platform.Platform, library: str
+def test_each_platform_needs_what_pyglet_loads(
+    machine: Machine, platform: gl_platform.Platform, library: str, missing: str
 ) -> None:
-    machine.libraries = {library}
-    with pytest.raises(RendererUnavailable, match=r"has no libGL: apt-get install .*libgl1"):
+    machine.libraries = {library, *SHARED} - {missing}
+    package = f"lib{missing.lower()}1"
+    with pytest.raises(RendererUnavailable, match=rf"has no lib{missing}: .*\b{package}\b"):
         find_platform(platform)
 
 
 def test_a_wish_is_not_overruled(machine: Machine) -> None:
-    machine.libraries = {"EGL", "GL"}
+    machine.libraries = {"EGL", *SHARED}
     assert find_platform("egl") == "egl"
     with pytest.raises(RendererUnavailable, match="libOSMesa"):
         find_platform("osmesa")
@@ -73,7 +78,7 @@ def test_the_problem_says_what_is_missing_and_how_to_install_it(machine: Machine
 
 
 def test_there_is_no_problem_where_a_library_is_found(machine: Machine) -> None:
-    machine.libraries = {"OSMesa", "GL"}
+    machine.libraries = {"OSMesa", *SHARED}
     assert draft_problem() is None
 
 
