@@ -78,7 +78,7 @@ class RoutedHyperedge(BaseModel):
 
 
 class Contact(BaseModel):
-    """The nearest place of two hyperedges, or of one and an item that it does not attach to."""
+    """The nearest place of two hyperedges, or of one and an item."""
 
     hyperedges: list[str]
     item: str | None

@@ -11,11 +11,11 @@ from app.arrays import Floats, Indices
 from app.grouped import rows_of, starts_of
 from app.hyperedges.clearance.obstacles import (
     Obstacles,
-    attached_items,
     near_obstacles,
     obstacle_gaps,
     obstacles_of,
 )
+from app.hyperedges.clearance.passable import passable_items
 from app.hyperedges.join_planes import choose_join_planes
 from app.hyperedges.joining import merge, select
 from app.hyperedges.routing import Routing
@@ -65,7 +65,7 @@ def weave_all(
     ``previous`` layout keep their curves to the last bit unless their attachments moved, or they
     are in the way of what is new.
     """
-    surroundings = Surroundings.of(obstacles_of(placement), attached_items(placement))
+    surroundings = Surroundings.of(obstacles_of(placement), passable_items(placement))
     kept = np.zeros(len(placement.radii), dtype=np.bool_)
     if previous is not None:
         kept = unmoved(placement, join_heights, previous)

@@ -61,6 +61,7 @@ def _placed(program: Program, notation: Notation, standing: Standing | None) -> 
         attachment_starts=np.zeros(1, dtype=np.int64),
         attachment_items=np.empty(0, dtype=np.int64),
         radii=np.empty(0),
+        parents=np.array(relations.parents, dtype=np.int64),
         offsets=np.array(offsets, dtype=np.float64).reshape(-1, 3),
         turns=np.array([each.turn for each in sized], dtype=np.float64).reshape(-1, 4),
     )

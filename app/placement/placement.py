@@ -31,8 +31,10 @@ class Placement:
     ``attachment_starts[k]`` to ``attachment_starts[k + 1]`` (h + 1,), and ``attachment_items``
     (a,) are their items' numbers. ``radii`` (h,) are the tubes'. Document units, z up.
 
-    ``offsets`` (n, 3), from the parent's origin to the solid's centre, and ``turns`` (n, 4) are
-    within the parent; they are there where items may be placed anew after an edit.
+    ``parents`` (n,) are the numbers of the items that contain the items, -1 for roots; none where
+    that is not known. ``offsets`` (n, 3), from the parent's origin to the solid's centre, and
+    ``turns`` (n, 4) are within the parent; they are there where items may be placed anew after an
+    edit.
     """
 
     centers: Floats
@@ -45,5 +47,6 @@ class Placement:
     attachment_starts: Indices
     attachment_items: Indices
     radii: Floats
+    parents: Indices = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     offsets: Floats = field(default_factory=lambda: np.empty((0, 3)))
     turns: Floats = field(default_factory=lambda: np.empty((0, 4)))

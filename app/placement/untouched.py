@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.arrays import Indices
+from app.placement.family import family
 from app.placement.placement import Placement
 from app.placement.standing import Standing
 from app.program.model import Hyperedge, Item, Program
@@ -41,6 +42,8 @@ class Untouched:
         Arrays are those of before where nothing differs.
         """
         stood, new = self.stood, self.numbers < 0
+        parents = np.array(family(self.program).parents, dtype=np.int64)
+        placed = replace(placed, parents=parents)
         if np.array_equal(self.numbers, np.arange(len(stood.centers))):
             arrays = {name: getattr(stood, name) for name in _OF_ITEMS}
             return replace(placed, solids=stood.solids, labels=stood.labels, **arrays)

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
 from app.hyperedges.clearance.obstacles import (
-    attached_items,
+    Obstacles,
     near_obstacles,
     obstacle_gaps,
     obstacles_of,
 )
 from app.hyperedges.clearance.own import OwnContacts, own_contacts
+from app.hyperedges.clearance.own_bodies import beyond_own_balls, leaving_radii
 from app.hyperedges.clearance.pairs import Gaps, gaps, near_pairs
+from app.hyperedges.clearance.passable import are_among, attached_items, containing_items
 from app.hyperedges.routing import Routing
 from app.placement.placement import Placement
 
@@ -47,8 +48,8 @@ class Contact:
 class Conflicts:
     """Pairs that are not proven to be clear, each once, at the nearest place.
 
-    ``with_items`` (k,): whether ``second`` (k,) is an item, which hyperedge ``first`` (k,) does not
-    attach to, or a hyperedge with a larger number; pairs of hyperedges come first, sorted.
+    ``with_items`` (k,): whether ``second`` (k,) is an item or a hyperedge with a larger number than
+    ``first`` (k,); pairs of hyperedges come first, sorted.
     ``places`` (k, 3); ``lower`` and ``upper`` (k,): bounds of the distance between the surfaces.
     """
 
@@ -67,12 +68,13 @@ class Conflicts:
 class Certificate:
     """What is proven of a routing.
 
-    ``certified``: every two hyperedges, and every hyperedge and every item that it does not attach
-    to, are ``required`` apart or more, surface from surface. Where that is so ``conflicts`` is
-    empty; what could not be decided is in it. ``minimum`` is a lower bound of the smallest of these
-    distances, within a hundredth of it where ``nearest`` says what is there; without ``nearest``
-    nothing is as near as that. ``own`` are hyperedges that touch themselves, which is for them to
-    decide.
+    ``certified``: every two hyperedges, and every hyperedge and every item, are ``required`` apart
+    or more, surface from surface. A hyperedge may be nearer to an item that it attaches to, but
+    only in a ball about its attachment (`app.hyperedges.clearance.own_bodies`), and may pass what
+    contains such an item. Labels do not count. Where all that is so ``conflicts`` is empty; what
+    could not be decided is in it. ``minimum`` is a lower bound of the smallest of these distances,
+    within a hundredth of it where ``nearest`` says what is there; without ``nearest`` nothing is as
+    near as that. ``own`` are hyperedges that touch themselves, which is for them to decide.
     """
 
     required: float
@@ -95,43 +97,109 @@ def certify(routing: Routing, placement: Placement, clearance: float) -> Certifi
     Raises `ValueError` where a control point, a radius or an item's place is not finite.
     """
     _refuse_infinite(routing, placement)
-    owners = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
-    points, radii = np.ascontiguousarray(routing.control_points), routing.radii[owners]
-    obstacles, attached = obstacles_of(placement), attached_items(placement)
-
-    def pairs(reach: float) -> tuple[Indices, Indices]:
-        return (
-            near_pairs(points, owners, radii, reach),
-            near_obstacles(points, owners, radii, obstacles, attached, reach),
-        )
-
-    def measure(tubes: Indices, items: Indices, enough: float) -> Gaps:
-        return _both(
-            gaps(points, radii, tubes, enough),
-            obstacle_gaps(points, radii, obstacles, items, enough),
-        )
-
-    def contacts(tubes: Indices, items: Indices, found: Gaps) -> Conflicts:
-        with_items = np.repeat([False, True], [len(tubes), len(items)])
-        first = owners[np.concatenate([tubes[:, 0], items[:, 0]])]
-        second = np.concatenate([owners[tubes[:, 1]], obstacles.items[items[:, 1]]])
-        return Conflicts(with_items, first, second, found.places, found.lower, found.upper)
-
-    tubes, items = pairs(clearance)
-    found = measure(tubes, items, clearance)
-    conflicts = _once(contacts(tubes, items, found), found.lower < clearance)
+    scene = _Scene.of(routing, placement, clearance)
+    near = scene.near(clearance)
+    found = near.measured(scene.obstacles, clearance)
+    conflicts = _once(near.contacts(scene.obstacles, found), found.lower < clearance)
     nearest: Contact | None
     if len(conflicts):
         nearest = _nearest(conflicts)
         minimum = nearest.lower
     else:
-        reach = clearance + AHEAD * float(radii.max(initial=0.0))
-        minimum, nearest = _look_ahead(*pairs(reach), reach, measure, contacts)
+        reach = clearance + AHEAD * float(routing.radii.max(initial=0.0))
+        minimum, nearest = _look_ahead(scene.near(reach), scene.obstacles, reach)
         # The clearance is proven already, and may be within a hundredth of the smallest distance.
         minimum = max(minimum, clearance)
     return Certificate(
         clearance, not len(conflicts), minimum, nearest, conflicts, own_contacts(routing)
     )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Scene:
+    """All segments, with their hyperedges and radii (s,), and what may be in their way."""
+
+    points: Floats
+    owners: Indices
+    radii: Floats
+    obstacles: Obstacles
+    placement: Placement
+    attached: Indices
+    containing: Indices
+    balls: Floats
+
+    @classmethod
+    def of(cls, routing: Routing, placement: Placement, clearance: float) -> _Scene:
+        owners = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
+        bodies = obstacles_of(placement).bodies
+        return cls(
+            points=np.ascontiguousarray(routing.control_points),
+            owners=owners,
+            radii=routing.radii[owners],
+            obstacles=bodies,
+            placement=placement,
+            attached=attached_items(placement),
+            containing=containing_items(placement),
+            balls=leaving_radii(placement, bodies, clearance),
+        )
+
+    def near(self, reach: float) -> _Near:
+        """What may be nearer than ``reach``."""
+        points, owners, radii = self.points, self.owners, self.radii
+        tubes = near_pairs(points, owners, radii, reach)
+        items = near_obstacles(points, owners, radii, self.obstacles, self.containing, reach)
+        named = np.stack([owners[items[:, 0]], self.obstacles.items[items[:, 1]]], axis=1)
+        own = are_among(named, self.attached)
+        if not own.any():
+            return _Near(points, owners, radii, tubes, items)
+        beside, named = items[own], named[own]
+        pieces, pairs = beyond_own_balls(points[beside[:, 0]], named, self.placement, self.balls)
+        segments = beside[pairs, 0]
+        numbers = len(points) + np.arange(len(pieces))
+        return _Near(
+            np.concatenate([points, pieces]),
+            np.concatenate([owners, owners[segments]]),
+            np.concatenate([radii, radii[segments]]),
+            tubes,
+            np.concatenate([items[~own], np.stack([numbers, beside[pairs, 1]], axis=1)]),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Near:
+    """Pairs (m, 2) of curves, ``tubes``, and of a curve and an obstacle, ``items``.
+
+    Curves are all segments, then what of some is beyond the balls about their attachments.
+    """
+
+    points: Floats
+    owners: Indices
+    radii: Floats
+    tubes: Indices
+    items: Indices
+
+    def part(self, begin: int, end: int) -> _Near:
+        """Some of the pairs of either kind."""
+        return replace(self, tubes=self.tubes[begin:end], items=self.items[begin:end])
+
+    def measured(self, obstacles: Obstacles, enough: float) -> Gaps:
+        """The gaps of both kinds of pairs."""
+        tubes = gaps(self.points, self.radii, self.tubes, enough)
+        items = obstacle_gaps(self.points, self.radii, obstacles, self.items, enough)
+        return Gaps(
+            np.concatenate([tubes.lower, items.lower]),
+            np.concatenate([tubes.upper, items.upper]),
+            np.concatenate([tubes.at, items.at]),
+            np.concatenate([tubes.places, items.places]),
+        )
+
+    def contacts(self, obstacles: Obstacles, found: Gaps) -> Conflicts:
+        """The pairs by name."""
+        tubes, items = self.tubes, self.items
+        with_items = np.repeat([False, True], [len(tubes), len(items)])
+        first = self.owners[np.concatenate([tubes[:, 0], items[:, 0]])]
+        second = np.concatenate([self.owners[tubes[:, 1]], obstacles.items[items[:, 1]]])
+        return Conflicts(with_items, first, second, found.places, found.lower, found.upper)
 
 
 def _refuse_infinite(routing: Routing, placement: Placement) -> None:
@@ -144,15 +212,6 @@ def _refuse_infinite(routing: Routing, placement: Placement) -> None:
     ):
         if not np.isfinite(numbers).all():
             raise ValueError("Only what is at finite places can be certified.")
-
-
-def _both(tubes: Gaps, items: Gaps) -> Gaps:
-    return Gaps(
-        np.concatenate([tubes.lower, items.lower]),
-        np.concatenate([tubes.upper, items.upper]),
-        np.concatenate([tubes.at, items.at]),
-        np.concatenate([tubes.places, items.places]),
-    )
 
 
 def _kept(conflicts: Conflicts, rows: Indices) -> Conflicts:
@@ -190,27 +249,21 @@ def _nearest(contacts: Conflicts) -> Contact:
     )
 
 
-def _look_ahead(
-    tubes: Indices,
-    items: Indices,
-    reach: float,
-    measure: Callable[[Indices, Indices, float], Gaps],
-    contacts: Callable[[Indices, Indices, Gaps], Conflicts],
-) -> tuple[float, Contact | None]:
+def _look_ahead(near: _Near, obstacles: Obstacles, reach: float) -> tuple[float, Contact | None]:
     """The smallest distance of pairs of segments, and of segments and boxes, below ``reach``.
 
     Whatever is farther apart than the nearest so far is left as soon as that is known.
     """
     lowest, enough = reach, reach
     nearest: Contact | None = None
-    for begin in range(0, max(len(tubes), len(items)), AT_ONCE):
-        some = tubes[begin : begin + AT_ONCE], items[begin : begin + AT_ONCE]
-        found = measure(*some, enough)
+    for begin in range(0, max(len(near.tubes), len(near.items)), AT_ONCE):
+        some = near.part(begin, begin + AT_ONCE)
+        found = some.measured(obstacles, enough)
         lowest = min(lowest, float(found.lower.min()))
         if found.upper.min() < enough:
             # What was left early is not the nearest: its lower bound is above another's upper.
             rows = np.flatnonzero(found.upper < enough)
             row = rows[[int(found.upper[rows].argmin())]]
-            nearest = _nearest(_kept(contacts(*some, found), row))
+            nearest = _nearest(_kept(some.contacts(obstacles, found), row))
             enough = nearest.upper
     return lowest, nearest

@@ -18,6 +18,7 @@ from app.hyperedges.clearance.distance import search_box
 from app.hyperedges.clearance.few_boxes import FEW, meeting_with
 from app.hyperedges.clearance.hulls import hull
 from app.hyperedges.clearance.pairs import FINEST, ROUNDING, Gaps, bezier, boxes
+from app.hyperedges.clearance.passable import are_among
 from app.hyperedges.clearance.search import workspace
 from app.placement.placement import LabelPlace, Placement
 from app.placement.turning import matrices
@@ -30,7 +31,8 @@ class Obstacles:
 
     ``centers`` (m, 3); the columns of ``rotations`` (m, 3, 3) are the boxes' axes; ``halves``
     (m, 3) half their sizes; ``roundings`` (m,): all that is nearer to a box than this belongs to it
-    (a ball is a box without size). ``items`` (m,): whose they are, ascending.
+    (a ball is a box without size). ``items`` (m,): whose they are, ascending; ``letters`` (m,):
+    whether they hold an item's label instead of its body.
     """
 
     centers: Floats
@@ -38,6 +40,12 @@ class Obstacles:
     halves: Floats
     roundings: Floats
     items: Indices
+    letters: NDArray[np.bool_]
+
+    @property
+    def bodies(self) -> Obstacles:
+        """The boxes of the items themselves, without their labels."""
+        return self.only(np.flatnonzero(~self.letters)) if self.letters.any() else self
 
     def only(self, rows: Indices) -> Obstacles:
         """The boxes of these rows, which ascend."""
@@ -47,6 +55,7 @@ class Obstacles:
             self.halves[rows],
             self.roundings[rows],
             self.items[rows],
+            self.letters[rows],
         )
 
 
@@ -89,6 +98,7 @@ def _obstacles(bodies: _Bodies) -> Obstacles:
     kinds: dict[tuple[Solid, Size], int] = {}
     chosen: list[int] = []
     items: list[int] = []
+    letters: list[bool] = []
     placed: list[tuple[tuple[float, ...], tuple[float, ...]]] = []
     for number, (solid, size, label) in enumerate(
         zip(bodies.solids, map(tuple, bodies.sizes.tolist()), bodies.labels, strict=True)
@@ -97,14 +107,16 @@ def _obstacles(bodies: _Bodies) -> Obstacles:
             chosen.append(kinds.setdefault((solid, size), len(kinds)))
             placed.append(_HERE)
             items.append(number)
+            letters.append(False)
         if label is not None:
             chosen.append(kinds.setdefault((label.text, label.size), len(kinds)))
             placed.append((label.position, label.rotation))
             items.append(number)
+            letters.append(True)
     if not kinds:
-        nothing = np.zeros((0, 3))
+        nothing, nobody = np.zeros((0, 3)), np.zeros(0, dtype=np.int64)
         return Obstacles(
-            nothing, np.zeros((0, 3, 3)), nothing, np.zeros(0), np.zeros(0, dtype=np.int64)
+            nothing, np.zeros((0, 3, 3)), nothing, np.zeros(0), nobody, nobody.astype(np.bool_)
         )
     hulls = [hull(solid, size) for solid, size in kinds]
     starts = starts_of(np.array([len(one.centers) for one in hulls]))
@@ -121,7 +133,8 @@ def _obstacles(bodies: _Bodies) -> Obstacles:
         frames = matrices(rotations)
         centers = positions + np.einsum("kij,kj->ki", frames, centers)
         turns = frames @ turns
-    return Obstacles(centers, np.ascontiguousarray(turns), halves, roundings, owners)
+    is_label = np.repeat(np.array(letters), counts)
+    return Obstacles(centers, np.ascontiguousarray(turns), halves, roundings, owners, is_label)
 
 
 _HERE = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
@@ -135,21 +148,12 @@ def _repeated(
     return np.repeat(positions, counts, axis=0), np.repeat(rotations, counts, axis=0)
 
 
-def attached_items(placement: Placement) -> Indices:
-    """Which hyperedge attaches to which item: pairs (k, 2), each once, sorted."""
-    starts = placement.attachment_starts
-    hyperedges = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-    count = max(len(placement.solids), 1)
-    keys = np.unique(hyperedges * count + placement.attachment_items)
-    return np.stack(np.divmod(keys, count), axis=1)
-
-
 def near_obstacles(
     control_points: Floats,
     owners: Indices,
     radii: Floats,
     obstacles: Obstacles,
-    attached: Indices,
+    passable: Indices,
     clearance: float,
     active: NDArray[np.bool_] | None = None,
 ) -> Indices:
@@ -157,7 +161,7 @@ def near_obstacles(
 
     ``control_points`` (s, 4, 3), ``owners`` and ``radii`` (s,) of the segments, as for
     `app.hyperedges.clearance.pairs.near_pairs`. No hyperedge is paired with an item that
-    ``attached`` (k, 2), sorted, names it with, nor with that item's label. With ``active`` (s,)
+    ``passable`` (k, 2), sorted, names it with, nor with that item's label. With ``active`` (s,)
     those segments alone. Sorted.
     """
     if len(control_points) == 0 or len(obstacles.items) == 0:
@@ -171,14 +175,11 @@ def near_obstacles(
     if len(asking) * len(theirs) <= FEW:
         found = meeting_with(ours, asking, theirs)
     else:
-        # No two groups are equal: the pairs that are attached are taken out below.
+        # No two groups are equal: the pairs that are passable are taken out below.
         strangers = np.full(len(theirs), -1)
         found = meeting(plant(theirs), ours, asking, (owners, strangers))
-    count = int(max(obstacles.items.max(), attached[:, 1].max(initial=0))) + 1
-    keys = owners[found[:, 0]] * count + obstacles.items[found[:, 1]]
-    of_attached = np.append(attached[:, 0] * count + attached[:, 1], np.iinfo(np.int64).max)
-    strange = of_attached[np.searchsorted(of_attached, keys)] != keys
-    return np.asarray(found[strange])
+    named = np.stack([owners[found[:, 0]], obstacles.items[found[:, 1]]], axis=1)
+    return np.asarray(found[~are_among(named, passable)])
 
 
 def obstacle_gaps(

@@ -14,7 +14,7 @@ from app.hyperedges.routing import Routing
 from app.placement.placement import Placement
 from app.solids.solid import Box, Sphere
 from tests.hyperedges.clearance.curves import points_at
-from tests.hyperedges.clearance.furniture import furnished, routed
+from tests.hyperedges.clearance.furniture import furnished, label, routed
 
 CUBE = Box((1.0, 1.0, 1.0), 0.05)
 NO_ITEMS: Floats = np.zeros((0, 3))
@@ -101,7 +101,7 @@ def test_hyperedges_that_share_an_attachment_touch() -> None:
 
 @pytest.mark.parametrize(("height", "clear"), [(0.66, True), (0.64, False), (0.3, False)])
 def test_a_tube_over_an_item_is_clear_or_a_conflict(height: float, clear: bool) -> None:
-    scene = furnished([CUBE] * 3, [[0, 0, 0], [-9, 0, 0], [9, 0, 0]], attachments=[[1, 2]])
+    scene = furnished([CUBE] * 3, [[0, 0, 0], [-9, 0, -1], [9, 0, -1]], attachments=[[1, 2]])
     routing = routed([[line([-8.4, 0, height], [8.4, 0, height])]])
     found = certify(routing, scene, 0.05)
     assert found.certified == clear
@@ -111,9 +111,52 @@ def test_a_tube_over_an_item_is_clear_or_a_conflict(height: float, clear: bool) 
         assert found.conflicts.upper[0] < 0.05
 
 
-def test_items_that_a_hyperedge_attaches_to_are_not_in_its_way() -> None:
+@pytest.mark.parametrize(
+    ("way", "through"),
+    [
+        ([[0, 0, 0.5], [0, 0, 9], [5, 0, 9], [5, 0, 0.5]], []),
+        ([[0, 0, 0.5], [0, 0, -9], [5, 0, 9], [5, 0, 0.5]], [0]),
+        ([[0, 0, 0.5], [1, 0, 0.5], [4, 0, 0.5], [5, 0, 0.5]], [0, 1]),
+    ],
+)
+def test_a_tube_leaves_its_items_and_does_not_run_through_them(
+    way: list[list[float]], through: list[int]
+) -> None:
     scene = furnished([CUBE, CUBE], [[0, 0, 0], [5, 0, 0]], attachments=[[0, 1]])
-    routing = routed([[line([0, 0, 0.5], [5, 0, 0.5])]])
+    found = certify(routed([[np.array(way, dtype=np.float64)]]), scene, 0.05)
+    assert found.certified == (not through)
+    assert found.conflicts.second.tolist() == through
+    assert found.conflicts.with_items.all()
+
+
+def test_what_contains_an_attached_item_lets_its_tube_pass() -> None:
+    outer, inner = Box((9.0, 9.0, 9.0), 0.05), Box((5.0, 5.0, 5.0), 0.05)
+    scene = furnished(
+        [outer, inner, CUBE, CUBE],
+        [[0, 0, 0], [0, 0, 0], [0, 0, 0], [20, 0, 0]],
+        attachments=[[2, 3], [3, 3]],
+    )
+    through = np.array([[0, 0, 0.5], [0, 0, 9], [20, 0, 9], [20, 0, 0.5]])
+    beside = line([20, 0.4, 0.5], [3, 0.4, 0.5])
+    routing = routed([[through], [beside]])
+    contained = dataclasses.replace(scene, parents=np.array([-1, 0, 1, -1]))
+    found = certify(routing, contained, 0.05).conflicts
+    pairs = set(zip(found.first.tolist(), found.second.tolist(), strict=True))
+    assert pairs & {(0, 0), (0, 1), (1, 0)} == {(1, 0)}
+    strangers = certify(routing, scene, 0.05).conflicts
+    pairs = set(zip(strangers.first.tolist(), strangers.second.tolist(), strict=True))
+    assert {(0, 0), (0, 1), (1, 0)} <= pairs
+
+
+def test_a_label_makes_no_conflict_that_its_item_would_not() -> None:
+    beside = label("a long word", (2.0, 0.0, 0.0))
+    scene = furnished(
+        [CUBE, CUBE, CUBE],
+        [[0, 0, 0], [2, 9, 0], [2, -9, 0]],
+        labels=[beside, None, None],
+        attachments=[[1, 2]],
+    )
+    routing = routed([[line([2, 8.3, 0], [2, -8.3, 0])]])
     assert certify(routing, scene, 0.05).certified
 
 

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from app.arrays import Floats
 from app.hyperedges.clearance.obstacles import (
     Obstacles,
-    attached_items,
     near_obstacles,
     obstacle_gaps,
     obstacles_of,
@@ -61,6 +60,7 @@ def test_the_lower_bound_never_exceeds_what_sampling_finds(
         scale * half[None],
         scale * chance.choice([0.0, 0.5], 1),
         np.zeros(1, dtype=np.int64),
+        np.zeros(1, dtype=np.bool_),
     )
     curve = scale * curve + [shift, 0.0, shift]
     found = obstacle_gaps(curve[None], np.zeros(1), boxes, np.zeros((1, 2), np.int64), np.inf)
@@ -84,6 +84,7 @@ def test_a_known_gap_above_a_box_is_found_within_a_hundredth(gap: float, seed: i
         np.array([[1.0, 1, 2]]),
         np.zeros(1),
         np.zeros(1, int),
+        np.zeros(1, bool),
     )
     found = obstacle_gaps(
         (curve @ turn)[None], np.array([0.1]), boxes, np.zeros((1, 2), np.int64), np.inf
@@ -92,7 +93,7 @@ def test_a_known_gap_above_a_box_is_found_within_a_hundredth(gap: float, seed: i
     assert (found.places[0] @ turn.T)[2] == pytest.approx(2 + gap / 2, abs=0.01 * gap + 1e-6)
 
 
-def pairs_near(placement: Placement, curves: Floats, attached: list[list[int]]) -> list[list[int]]:
+def pairs_near(placement: Placement, curves: Floats, passable: list[list[int]]) -> list[list[int]]:
     boxes = obstacles_of(placement)
     count = len(curves)
     found = near_obstacles(
@@ -100,7 +101,7 @@ def pairs_near(placement: Placement, curves: Floats, attached: list[list[int]]) 
         np.arange(count),
         np.full(count, 0.1),
         boxes,
-        np.array(attached, dtype=np.int64).reshape(-1, 2),
+        np.array(passable, dtype=np.int64).reshape(-1, 2),
         0.05,
     )
     return [[segment, int(boxes.items[box])] for segment, box in found.tolist()]
@@ -113,7 +114,7 @@ def test_segments_are_paired_with_the_items_beside_them() -> None:
     assert pairs_near(scene, curves, []) == [[0, 0], [1, 2]]
 
 
-def test_what_a_hyperedge_attaches_to_is_not_in_its_way_nor_is_the_label() -> None:
+def test_what_a_hyperedge_may_pass_is_not_in_its_way_nor_is_the_label() -> None:
     scene = furnished([CUBE], [[0, 0, 0]], labels=[label("beside", (1.0, 0.0, 0.0))])
     curves = np.stack([LINE, LINE])
     assert pairs_near(scene, curves, [[1, 0]]) == [[0, 0], [0, 0]]
@@ -150,6 +151,8 @@ def test_labels_stand_where_their_items_are_turned_to() -> None:
     )
     boxes = obstacles_of(scene)
     assert boxes.items.tolist() == [0, 0]
+    assert boxes.letters.tolist() == [False, True]
+    assert len(boxes.bodies.items) == 1
     np.testing.assert_allclose(boxes.centers[:, 0], np.array([3.0, 3.5]), atol=1e-12)
     width, height, depth = label("word", (0.0, 0.0, 0.0)).size
     np.testing.assert_allclose(2 * boxes.halves[1], (width, height, depth))
@@ -164,8 +167,3 @@ def test_a_blank_text_is_no_obstacle() -> None:
 
 def test_no_items_are_no_obstacles() -> None:
     assert len(obstacles_of(furnished([], np.zeros((0, 3)))).items) == 0
-
-
-def test_attached_items_are_named_once() -> None:
-    scene = furnished([CUBE, CUBE], [[0, 0, 0], [5, 0, 0]], attachments=[[0, 1, 1], [1, 1]])
-    assert attached_items(scene).tolist() == [[0, 0], [0, 1], [1, 1]]
