@@ -1,12 +1,13 @@
 """Layouts as bytes, so that a stored program looks after a restart as it did before, to the bit.
 
-What can be computed again from the program (solids, labels, attachments) is not in them.
+What can be computed again from the program (solids, labels) is not in them.
 """
 
 from __future__ import annotations
 
 import io
 import zlib
+from dataclasses import replace
 from typing import Any
 from zipfile import BadZipFile
 
@@ -19,10 +20,11 @@ from app.placement.place import place
 from app.placement.standing import Standing
 from app.program.model import Program
 
-FORM = 1
+FORM = 2
 """Of the bytes; another form cannot be read, and the program is laid out anew."""
 
 PLACES = ("centers", "rotations", "sizes", "offsets", "turns")
+ENDS = ("attachment_positions", "attachment_directions")
 CURVES = (
     "control_points",
     "segment_starts",
@@ -38,7 +40,7 @@ CURVES = (
 def write_layout(layout: Layout) -> bytes:
     """The layout as bytes, for `read_layout` with the same program."""
     file = io.BytesIO()
-    arrays = {name: getattr(layout.placement, name) for name in PLACES}
+    arrays = {name: getattr(layout.placement, name) for name in PLACES + ENDS}
     arrays |= {f"routing_{name}": getattr(layout.routing, name) for name in CURVES}
     np.savez(file, form=FORM, hues=layout.hues, **arrays)
     return file.getvalue()
@@ -51,6 +53,7 @@ def read_layout(program: Program, data: bytes) -> Layout | None:
         standing = Standing(program, *(arrays[name] for name in PLACES))
         routing = Routing(**{name: arrays[f"routing_{name}"] for name in CURVES})
         hues, form = arrays["hues"], arrays["form"]
+        positions, directions = (arrays[name] for name in ENDS)
     except (KeyError, ValueError, OSError, EOFError, BadZipFile, zlib.error):
         return None
     counts = (len(standing.centers), len(hues), len(routing.radii))
@@ -58,7 +61,14 @@ def read_layout(program: Program, data: bytes) -> Layout | None:
     if form != FORM or counts != (items, hyperedges, hyperedges):
         return None
     placement = place(program, load_notation(program.notation), standing)
-    return Layout(program, shown(program, placement), routing, hues)
+    if len(positions) != len(placement.attachment_items):
+        return None
+    placed = replace(
+        shown(program, placement),
+        attachment_positions=positions,
+        attachment_directions=directions,
+    )
+    return Layout(program, placed, routing, hues)
 
 
 def _arrays(data: bytes) -> dict[str, np.ndarray[Any, Any]]:

@@ -22,6 +22,7 @@ from app.answers import (
 from app.compositions import contact_sheet, film, joined, variations
 from app.errors import PictureTooLarge
 from app.formats import registry
+from app.hyperedges.clearance.overlaps import find_overlaps
 from app.layout import Preview, Progress, judge, lay_out, silent
 from app.layout_record import read_layout
 from app.output.draft import draw_draft
@@ -225,7 +226,10 @@ def layout_of(
     verdict = judge(laid)
     progress("writing", 0.6)
     patches = patch_pairs(laid.routing, program.layout.patch_rule) if options.patches else None
-    body = layout_numbers(program, laid.placement, laid.routing, patches, verdict, laid.hues)
+    overlaps = find_overlaps(laid.placement)
+    body = layout_numbers(
+        program, laid.placement, laid.routing, patches, verdict, overlaps, laid.hues
+    )
     progress("done", 1.0)
     return Answer(body, "application/json", etag, program.name)
 

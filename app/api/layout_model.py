@@ -86,6 +86,13 @@ class Contact(BaseModel):
     distance: float = Field(description="Between the surfaces, a proven lower bound.")
 
 
+class Overlap(BaseModel):
+    """Two items that stand in each other, neither of which contains the other."""
+
+    items: tuple[str, str]
+    depth: float = Field(description="How far one has to move for their boxes to part.")
+
+
 class OwnContact(BaseModel):
     """Where a hyperedge touches itself, beyond its joins."""
 
@@ -121,4 +128,5 @@ class LayoutNumbers(BaseModel):
 
     items: list[PlacedItem]
     hyperedges: list[RoutedHyperedge]
+    overlaps: list[Overlap] = Field(description="At most 1,000, sorted as the items are.")
     clearance: Clearance | None = Field(description="Null where layout.clearance is null.")

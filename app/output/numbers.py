@@ -8,6 +8,7 @@ from typing import Any
 from pydantic_core import to_json
 
 from app.arrays import Floats, Indices
+from app.hyperedges.clearance.overlaps import Overlaps
 from app.hyperedges.routing import Routing
 from app.notations.loader import load_notation
 from app.output.clearance_numbers import Verdict, clearance_numbers
@@ -23,25 +24,33 @@ def layout_numbers(
     routing: Routing,
     patches: Floats | None,
     verdict: Verdict | None,
+    overlaps: Overlaps,
     hues: Indices | None = None,
 ) -> bytes:
     """JSON with world positions (z up, document units) and quaternions x, y, z, w.
 
     Every number has as many digits as it takes to read the same float back. ``patches``
     (s, 2, 4, 4, 3), top and bottom of each segment, are written where they are given; without a
-    ``verdict`` the clearance is null. ``hues`` (h,) say which colour of the palette each hyperedge
-    takes; left out, they take one after another.
+    ``verdict`` the clearance is null. ``overlaps`` are items that stand in each other. ``hues``
+    (h,) say which colour of the palette each hyperedge takes; left out, they take one after
+    another.
     """
     # Entry by entry: all as dictionaries at once would take many times the memory of the text.
     items = b",".join(map(_json, _items(program, placement)))
     colors = _colors(program, hues)
     hyperedges = b",".join(map(_json, _hyperedges(program, placement, routing, patches, colors)))
     clearance = None if verdict is None else clearance_numbers(program, routing, verdict)
-    return b'{"items":[%b],"hyperedges":[%b],"clearance":%b}' % (
+    return b'{"items":[%b],"hyperedges":[%b],"overlaps":[%b],"clearance":%b}' % (
         items,
         hyperedges,
+        b",".join(map(_json, _overlaps(program, overlaps))),
         _json(clearance),
     )
+
+
+def _overlaps(program: Program, overlaps: Overlaps) -> Iterator[dict[str, Any]]:
+    for pair, depth in zip(overlaps.items.tolist(), overlaps.depths.tolist(), strict=True):
+        yield {"items": [program.items[number].id for number in pair], "depth": depth}
 
 
 def _json(entry: dict[str, Any] | None) -> bytes:

@@ -7,43 +7,67 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.arrays import Floats, Indices
+from app.arrays import Flags, Floats, Indices
 from app.grouped import rows_of, starts_of
+from app.placement.attached_before import Before, attached_before
 from app.placement.placement import Placement
 from app.placement.points import points_of
+from app.placement.spreading import is_spread, spread
+from app.placement.standing import Standing
 from app.placement.turning import Vector, turned
-from app.placement.untouched import Untouched
 from app.program.model import Hyperedge, Program
 
 
-def attached(program: Program, placed: Placement, rest: Untouched | None = None) -> Placement:
+def attached(program: Program, placed: Placement, standing: Standing | None = None) -> Placement:
     """The items that are ``placed``, with the attachments of all hyperedges of the program.
 
-    Those of hyperedges that nothing has touched are the ones of before, to the last bit.
+    What would end at the same place gets places side by side. After an edit, ends that are attached
+    as they were stay where they were: to the last bit where their item has not moved, and else at
+    the same place of the item. ``placed`` has the radii of all hyperedges.
     """
     counts = np.array([len(each.attachments) for each in program.hyperedges], dtype=np.int64)
     starts = starts_of(counts)
+    before = None if standing is None else attached_before(program, placed, standing)
+    stays = np.zeros(len(counts), dtype=np.bool_) if before is None else before.stays
     positions, directions = np.empty((starts[-1], 3)), np.empty((starts[-1], 3))
     owners = np.empty(starts[-1], dtype=np.int64)
-    new = np.arange(len(counts))
-    if rest is not None:
-        numbers, stood = rest.hyperedges(), rest.stood
-        new = np.flatnonzero(numbers < 0)
-        here = rows_of(starts, np.flatnonzero(numbers >= 0))
-        there = rows_of(stood.attachment_starts, numbers[numbers >= 0])
-        positions[here] = stood.attachment_positions[there]
-        directions[here] = stood.attachment_directions[there]
-        owners[here] = rest.items_now()[stood.attachment_items[there]]
+    new = np.flatnonzero(~stays)
+    if before is not None:
+        rows = rows_of(starts, np.flatnonzero(stays))
+        positions[rows], directions[rows] = before.positions[rows], before.directions[rows]
+        owners[rows] = before.items[rows]
     if len(new):
         rows = rows_of(starts, new)
         chosen = [program.hyperedges[number] for number in new]
         positions[rows], directions[rows], owners[rows] = _ends(program, chosen, placed)
-    return replace(
+    whole = replace(
         placed,
         attachment_positions=positions,
         attachment_directions=directions,
         attachment_starts=starts,
         attachment_items=owners,
+    )
+    if not is_spread(program):
+        return whole
+    held = np.repeat(stays, counts)
+    if before is not None:
+        whole, held = _followed(whole, before, held)
+    return spread(program, whole, held)
+
+
+def _followed(placement: Placement, before: Before, held: Flags) -> tuple[Placement, Flags]:
+    """Ends that had a place of their own have it on their items, wherever these are now."""
+    positions, directions = (
+        placement.attachment_positions.copy(),
+        placement.attachment_directions.copy(),
+    )
+    rows = np.flatnonzero(before.displaced(placement) & ~held)
+    positions[rows], directions[rows] = before.on_items(placement, rows)
+    held = held.copy()
+    held[before.known] = True
+    return (
+        replace(placement, attachment_positions=positions, attachment_directions=directions),
+        held,
     )
 
 

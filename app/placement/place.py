@@ -40,7 +40,8 @@ def place(program: Program, notation: Notation, standing: Standing | None = None
         hyperedge.radius or notation.hyperedge_style(hyperedge.kind).radius
         for hyperedge in program.hyperedges
     ]
-    return replace(attached(program, placed, rest), radii=np.array(radii, dtype=np.float64))
+    placed = replace(placed, radii=np.array(radii, dtype=np.float64))
+    return attached(program, placed, standing)
 
 
 def _placed(program: Program, notation: Notation, standing: Standing | None) -> Placement:

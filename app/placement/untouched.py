@@ -11,7 +11,7 @@ from app.arrays import Indices
 from app.placement.family import family
 from app.placement.placement import Placement
 from app.placement.standing import Standing
-from app.program.model import Hyperedge, Item, Program
+from app.program.model import Item, Program
 from app.program.shapes import Csg
 
 _OF_ITEMS = ("centers", "rotations", "sizes", "offsets", "turns")
@@ -60,32 +60,6 @@ class Untouched:
             **arrays,
         )
 
-    def hyperedges(self) -> Indices:
-        """Which hyperedge of before each one is (h,) whose ends are where they were; else -1."""
-        known = {hyperedge.id: number for number, hyperedge in enumerate(self.before.hyperedges)}
-        numbers = np.array(
-            [
-                _joined_as(hyperedge, known.get(hyperedge.id, -1), self.before.hyperedges)
-                for hyperedge in self.program.hyperedges
-            ],
-            dtype=np.int64,
-        )
-        stays = np.zeros(len(self.stood.centers), dtype=np.bool_)
-        stays[self.numbers[self.numbers >= 0]] = True
-        if known:
-            all_stay = np.logical_and.reduceat(
-                stays[self.stood.attachment_items], self.stood.attachment_starts[:-1]
-            )
-            numbers[~all_stay[numbers]] = -1
-        return numbers
-
-    def items_now(self) -> Indices:
-        """Numbers of the items of before (m,) as they are now; -1 for others."""
-        now = np.full(len(self.stood.centers), -1, dtype=np.int64)
-        same = self.numbers >= 0
-        now[self.numbers[same]] = np.flatnonzero(same)
-        return now
-
 
 def untouched(program: Program, standing: Standing) -> Untouched | None:
     """The items that an edit does not concern, if it is plain that it concerns no more.
@@ -129,13 +103,6 @@ def _without_looks(item: Item) -> Item:
         "data": {},
     }
     return item.model_copy(update=looks)
-
-
-def _joined_as(hyperedge: Hyperedge, number: int, before: Sequence[Hyperedge]) -> int:
-    if number < 0:
-        return -1
-    ends, others = hyperedge.attachments, before[number].attachments
-    return number if ends is others or ends == others else -1
 
 
 def _are_alone(items: Sequence[Item], program: Program) -> bool:

@@ -52,7 +52,11 @@ class Attachment(Part):
     """One end of a hyperedge."""
 
     item: Id
-    point: Id | None = Field(None, description="Left out: the middle of the item's top face.")
+    point: Id | None = Field(
+        None,
+        description="Left out: the middle of the item's top face. Hyperedges that would end at the "
+        "same place get places side by side.",
+    )
 
 
 class Hyperedge(Part):

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from app.api.layout_model import LayoutNumbers
 from app.arrays import Floats
 from app.hyperedges.clearance.certificate import certify
+from app.hyperedges.clearance.overlaps import find_overlaps
 from app.hyperedges.pinches import find_pinches
 from app.hyperedges.routing import Routing
 from app.output.clearance_numbers import Verdict
@@ -47,7 +49,8 @@ def numbers(
     verdict = None
     if clearance is not None:
         verdict = Verdict(certify(routing, placement, clearance), find_pinches(routing))
-    return json.loads(layout_numbers(program, placement, routing, patches, verdict))
+    overlaps = find_overlaps(placement)
+    return json.loads(layout_numbers(program, placement, routing, patches, verdict, overlaps))
 
 
 def arch(start: float, height: float) -> list[list[float]]:
@@ -79,6 +82,17 @@ def test_items_are_where_they_were_placed() -> None:
         "size": [1, 1, 1],
         "rotation": [0, 0, 0, 1],
     }
+
+
+def test_items_that_overlap_are_named() -> None:
+    program = three_items()
+    placement = placed(program)
+    assert numbers(program, placement)["overlaps"] == []
+    nearer = replace(placement, centers=placement.centers * [0.4, 1.0, 1.0])
+    assert numbers(program, nearer)["overlaps"] == [
+        {"items": ["x", "y"], "depth": pytest.approx(0.2)},
+        {"items": ["y", "z"], "depth": pytest.approx(0.2)},
+    ]
 
 
 def test_attachments_name_their_item_and_point() -> None:
@@ -148,6 +162,7 @@ def test_a_program_without_hyperedges_or_items_has_empty_lists() -> None:
     assert numbers(program, placed(program), nothing) == {
         "items": [],
         "hyperedges": [],
+        "overlaps": [],
         "clearance": None,
     }
 

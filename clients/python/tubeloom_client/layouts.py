@@ -123,9 +123,18 @@ class Clearance:
 
 
 @dataclass(frozen=True, slots=True)
+class Overlap:
+    """Two items that stand in each other, and how far one has to move for them to part."""
+
+    items: tuple[str, str]
+    depth: float
+
+
+@dataclass(frozen=True, slots=True)
 class Layout:
     """Where everything is; ``clearance`` is None where the program asks for none."""
 
     items: tuple[PlacedItem, ...]
     hyperedges: tuple[RoutedHyperedge, ...]
+    overlaps: tuple[Overlap, ...]
     clearance: Clearance | None
