@@ -64,7 +64,8 @@ class Sampled:
 
         Of a single pass, too much: how much neighbours differ.
         """
-        mean = np.clip(self.light[..., :3].mean(axis=2), 0.0, 1.0)
+        mean = self.light[..., :3].mean(axis=2)
+        np.clip(mean, 0.0, 1.0, out=mean)
         if self.passes < 2:
             steps = np.diff(mean, axis=1)
             return float(np.sqrt((steps * steps).mean() / 2)) if steps.size else 1.0
@@ -124,7 +125,6 @@ class Sampler:
         counts = passes_of(samples, self.width * self.height, most)
         for number, count in enumerate(counts):
             started = time.monotonic()
-            light = np.empty((*shape, 4), np.float32)
             for tile, (window, eye) in enumerate(zip(windows, sensors, strict=True)):
                 done = found.samples + count * tile / len(windows)
                 share, more = done / samples, count / len(windows) / samples
@@ -132,11 +132,10 @@ class Sampler:
                     self._drawing(eye, count, _seed(effort.seed, number, tile)),
                     _creeping(told, share, more),
                 )
-                left, top, width, height = window
-                light[top : top + height, left : left + width] = drawn[..., :4]
+                self._add(found, window, drawn[..., :4], count)
                 told(min(share + more, 1.0))
-            np.nan_to_num(light, copy=False, nan=0.0, posinf=0.0, neginf=0.0)
-            self._add(found, light, count)
+            found.samples += count
+            found.passes += 1
             if number == len(counts) - 1:
                 found.ending = "samples"
             elif effort.noise is not None and found.passes > 1 and found.noise <= effort.noise:
@@ -149,14 +148,15 @@ class Sampler:
 
     def guides(self, alive: Callable[[], None]) -> Guides:
         """Albedo, normals and coverage, nearly without noise."""
-        drawn = np.zeros((self.height, self.width, 7), np.float32)
+        shape = (self.height, self.width)
+        albedo, normals = (np.empty((*shape, 3), np.float32) for _ in range(2))
+        covered = np.empty(shape, np.float32)
         for window in self._windows():
-            left, top, width, height = window
-            part = wait_for(partial(self._guides, window), alive)
-            drawn[top : top + height, left : left + width] = part
-        np.nan_to_num(drawn, copy=False)
-        albedo, normals = (np.ascontiguousarray(drawn[..., at : at + 3]) for at in (0, 3))
-        return Guides(np.clip(albedo, 0.0, 1.0), normals, drawn[..., 6])
+            place = _place(window)
+            part = np.nan_to_num(wait_for(partial(self._guides, window), alive), copy=False)
+            np.clip(part[..., :3], 0.0, 1.0, out=albedo[place])
+            normals[place], covered[place] = part[..., 3:6], part[..., 6]
+        return Guides(albedo, normals, covered)
 
     def _guides(self, window: Window) -> Singles:
         """Albedo, normals and coverage of a part of the picture, (height, width, 7)."""
@@ -186,15 +186,15 @@ class Sampler:
         size = (self.width, self.height)
         return sensor(self.renderer, self.camera, self.scene.measure, size, window)
 
-    def _add(self, found: Sampled, light: Singles, count: int) -> None:
-        total = found.samples + count
+    def _add(self, found: Sampled, window: Window, light: Singles, count: int) -> None:
+        """What a pass has drawn in a window; large pictures are never held twice."""
+        np.nan_to_num(light, copy=False, nan=0.0, posinf=0.0, neginf=0.0)
         light[..., :3] *= self.scene.exposure
         np.minimum(light[..., :3], BRIGHTEST_PIXEL, out=light[..., :3])
-        found.light += (light - found.light) * np.float32(count / total)
+        mean, squares = found.light[_place(window)], found.squares[_place(window)]
+        mean += (light - mean) * np.float32(count / (found.samples + count))
         shown = np.clip(light[..., :3].mean(axis=2), 0.0, 1.0)
-        found.squares += count * shown * shown
-        found.samples = total
-        found.passes += 1
+        squares += count * shown * shown
 
     def _windows(self) -> Iterator[Window]:
         """Strips of the picture."""
@@ -203,6 +203,12 @@ class Sampler:
         edges = np.linspace(0, self.height, strips + 1).astype(int).tolist()
         for top, bottom in itertools.pairwise(edges):
             yield 0, top, self.width, bottom - top
+
+
+def _place(window: Window) -> tuple[slice, slice]:
+    """Rows and columns of a window."""
+    left, top, width, height = window
+    return slice(top, top + height), slice(left, left + width)
 
 
 def _creeping(told: Callable[[float], None], share: float, more: float) -> Callable[[], None]:
