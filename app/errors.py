@@ -13,6 +13,7 @@
     │   └── Unprintable             something in it has no closed body
     ├── UnknownName                 a format, notation, palette or material that does not exist
     ├── PictureTooLarge             more pixels than the limits allow
+    ├── OutOfMemory                 the work takes more memory than it may
     ├── RendererUnavailable         no way to draw on this machine; says what to install
     ├── WorkerLost                  a worker process died twice over the same work
     ├── DeadlineExceeded            the work took longer than it may
@@ -110,6 +111,10 @@ class UnknownName(TubeloomError):
 
 class PictureTooLarge(TubeloomError):
     """More pixels are asked for than this service draws."""
+
+
+class OutOfMemory(TubeloomError):
+    """The work takes more memory than a worker may; the message says what would do."""
 
 
 class RendererUnavailable(TubeloomError):

@@ -20,7 +20,6 @@ from app.answers import (
     is_known,
 )
 from app.compositions import contact_sheet, film, joined, variations
-from app.errors import PictureTooLarge
 from app.formats import registry
 from app.hyperedges.clearance.overlaps import find_overlaps
 from app.layout import Preview, Progress, judge, lay_out, silent
@@ -36,6 +35,7 @@ from app.output.shells import refuse_too_many, triangles_of
 from app.output.stl import write_stl
 from app.output.svg import write_svg
 from app.output.threemf import write_3mf
+from app.picture_limits import refuse_too_large
 from app.pictures import BEGUN, Artist, size_of_one_eye
 from app.program.collection import collection_paused
 from app.program.digest import canonical
@@ -104,7 +104,7 @@ def render(
     Where someone wants to see a final picture come, ``preview`` is shown it again and again.
     """
     began = time.monotonic()
-    _refuse_too_many_pixels(options, settings)
+    refuse_too_large(options, settings)
     with collection_paused():
         progress("reading", 0.0)
         recent = recent_layouts.get(data, layout)
@@ -275,17 +275,3 @@ def _is_crowd(program: Program, options: RenderOptions) -> bool:
         and len(program.hyperedges) > 0
         and Packing(options.compress, options.merge).merges(len(program.hyperedges))
     )
-
-
-def _refuse_too_many_pixels(options: RenderOptions, settings: Settings) -> None:
-    pixels = options.width * options.height
-    if pixels > settings.max_pixels:
-        raise PictureTooLarge(
-            f"{options.width} by {options.height} pixels are more than the "
-            f"{settings.max_pixels} that this service draws."
-        )
-    if options.format.is_animated and pixels * options.frames > settings.max_film_pixels:
-        raise PictureTooLarge(
-            f"{options.frames} frames of {options.width} by {options.height} pixels are more than "
-            f"the {settings.max_film_pixels} pixels that an animation may have here."
-        )

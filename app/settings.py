@@ -144,6 +144,11 @@ class Settings(BaseSettings):
     max_worker_bytes: int = Field(
         4 * 1024**3, ge=512 * 1024**2, description="Memory that one worker may take."
     )
+    kept_worker_bytes: int = Field(
+        1024**3,
+        ge=0,
+        description="A worker that holds more than this after a work is replaced by a new one.",
+    )
     max_values: int = Field(
         2_000_000, ge=1, description="JSON values in one document, counted by commas."
     )

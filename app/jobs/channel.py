@@ -33,9 +33,17 @@ def send(end: socket.socket, head: object, payload: bytes = b"") -> None:
 
 
 def receive(end: socket.socket) -> tuple[Any, bytes]:
-    """Wait for a message in a worker. Raises `EOFError` when nobody sends any more."""
+    """Wait for a message in a worker.
+
+    Raises `EOFError` when nobody sends any more, and `MemoryError` where the message is too large,
+    all of which has been read then.
+    """
     head_bytes, payload_bytes = _LENGTHS.unpack(_exactly(end, _LENGTHS.size))
-    head = pickle.loads(_exactly(end, head_bytes))  # noqa: S301 - from our own process
+    try:
+        head = pickle.loads(_exactly(end, head_bytes))  # noqa: S301 - from our own process
+    except MemoryError:
+        _skip(end, payload_bytes)
+        raise
     return head, bytes(_exactly(end, payload_bytes))
 
 
@@ -66,7 +74,11 @@ async def listen(reader: asyncio.StreamReader) -> tuple[Any, tuple[bytes, ...]]:
 
 
 def _exactly(end: socket.socket, size: int) -> bytearray:
-    data = bytearray(size)
+    try:
+        data = bytearray(size)
+    except MemoryError:
+        _skip(end, size)
+        raise
     view, filled = memoryview(data), 0
     while filled < size:
         got = end.recv_into(view[filled:])
@@ -74,3 +86,12 @@ def _exactly(end: socket.socket, size: int) -> bytearray:
             raise EOFError
         filled += got
     return data
+
+
+def _skip(end: socket.socket, size: int) -> None:
+    """Read so many bytes, and forget them."""
+    while size:
+        got = len(end.recv(min(size, 1 << 16)))
+        if not got:
+            raise EOFError
+        size -= got

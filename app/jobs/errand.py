@@ -44,6 +44,8 @@ class Child:
         launched = launch()
         self._process, self._end = launched.process, launched.end
         self.is_warm = False
+        self.works = 0
+        """How many works it was handed."""
 
     def send(self, head: object, payload: bytes = b"") -> None:
         """Give it a work, or at first the settings."""
@@ -96,6 +98,21 @@ def do(
 ) -> tuple[Reply | ChildLost, bytes]:
     """Do the work as long as ``check`` does not raise; ``tell`` hears how it goes on."""
     child = _take(settings)
+    reply, body = _do(child, work, document, check, tell)
+    if isinstance(reply, Reply) and reply.ran_out and child.works > 1:
+        # What fits must not depend on what the child did before.
+        reply, body = _do(Child(settings), work, document, check, tell)
+    return reply, body
+
+
+def _do(
+    child: Child,
+    work: Work,
+    document: bytes,
+    check: Callable[[], None],
+    tell: Callable[[Report], None],
+) -> tuple[Reply | ChildLost, bytes]:
+    settings = child.settings
     try:
         if not child.is_warm:
             child.send(settings)
@@ -103,6 +120,7 @@ def do(
             if not isinstance(ready, Ready):
                 return _failed(child, ready)
             child.is_warm = True
+        child.works += 1
         child.send(work, document)
         reply, body = _next(child, check, tell, settings.deadline_seconds)
     except (OSError, EOFError):
@@ -112,8 +130,11 @@ def do(
         child.kill()
         raise
     if isinstance(reply, Reply):
-        with _lock:
-            _idle.append(child)
+        if reply.is_spent:
+            child.kill()
+        else:
+            with _lock:
+                _idle.append(child)
         return reply, body
     return _failed(child, reply)
 

@@ -1,7 +1,9 @@
 """Worker processes that answer calls of the pipeline, and the line that waits for them.
 
 Each process does one work at a time, so one that native code kills takes only that work with it;
-the work is tried once more, and the process replaced.
+the work is tried once more, and the process replaced. So is one that is spent: where memory runs
+out in a worker that has worked before, the work is done again in one that has not, so that what
+fits never depends on what a worker did.
 """
 
 from __future__ import annotations
@@ -98,6 +100,7 @@ class WorkerPool:
         self._launched = launched if launched is not None else []
         self._idle: list[WorkerProcess] = []
         self._line: deque[asyncio.Future[WorkerProcess]] = deque()
+        self._line_for_new: deque[asyncio.Future[WorkerProcess]] = deque()
         self._slots: list[asyncio.Task[None]] = []
         self._first_started = asyncio.Event()
         self._usual_seconds = 0.0
@@ -112,7 +115,7 @@ class WorkerPool:
     @property
     def waiting(self) -> int:
         """How many works stand in line."""
-        return len(self._line)
+        return len(self._line) + len(self._line_for_new)
 
     @property
     def busy(self) -> int:
@@ -162,11 +165,11 @@ class WorkerPool:
     ) -> tuple[Reply, tuple[bytes, ...], float]:
         """A reply, its payload, and the seconds that the work waited for a worker."""
         clock = asyncio.get_running_loop().time
-        waited = 0.0
-        for attempt in range(1, self._attempts + 1):
+        waited, attempt, wants_new = 0.0, 1, False
+        while attempt <= self._attempts:
             came = clock()
-            worker = await self._take(first=attempt > 1)
-            began = clock()
+            worker = await (self._take_new() if wants_new else self._take(first=attempt > 1))
+            began, is_new = clock(), worker.works == 0
             waited += began - came
             stages: tuple[Stage, ...] = ()
             try:
@@ -176,8 +179,11 @@ class WorkerPool:
             except WorkerDiedError:
                 self.lost += 1
                 log.warning("worker died at work", pid=worker.pid, attempt=attempt)
+                attempt += 1
             else:
-                return reply, pieces, waited
+                if is_new or not reply.ran_out:
+                    return reply, pieces, waited
+                wants_new = True
             finally:
                 took = clock() - began
                 self._usual_seconds += 0.1 * (took - self._usual_seconds)
@@ -202,8 +208,16 @@ class WorkerPool:
                 f"The work took longer than {self._settings.deadline_seconds:g} seconds."
             )
         reply = future.result()
-        self._give(worker)
+        self._settle(worker, reply[0])
         return reply
+
+    def _settle(self, worker: WorkerProcess, reply: Reply) -> None:
+        """Let it do the next work, or end it; then `_keep_manned` starts another."""
+        if reply.is_spent:
+            log.info("worker replaced", pid=worker.pid, ran_out=reply.ran_out)
+            worker.kill()
+        else:
+            self._give(worker)
 
     def _abandon(
         self,
@@ -217,7 +231,7 @@ class WorkerPool:
         def settle(settled: asyncio.Future[tuple[Reply, tuple[bytes, ...]]]) -> None:
             stop.cancel()
             if settled.exception() is None:
-                self._give(worker)
+                self._settle(worker, settled.result()[0])
 
         future.add_done_callback(settle)
 
@@ -229,18 +243,32 @@ class WorkerPool:
                 return worker
         if self._is_line_full() and not first:
             raise Overloaded("All workers are busy and the line is full; try again soon.")
+        return await self._stand_in(self._line, first=first)
+
+    async def _take_new(self) -> WorkerProcess:
+        """A worker that has not worked yet; it takes the place of the one that was spent."""
+        for worker in self._idle:
+            if worker.works == 0 and not worker.died.done():
+                self._idle.remove(worker)
+                return worker
+        return await self._stand_in(self._line_for_new)
+
+    async def _stand_in(
+        self, line: deque[asyncio.Future[WorkerProcess]], *, first: bool = False
+    ) -> WorkerProcess:
+        """Wait in a line, or before all others in it."""
         place: asyncio.Future[WorkerProcess] = asyncio.get_running_loop().create_future()
-        (self._line.appendleft if first else self._line.append)(place)
+        (line.appendleft if first else line.append)(place)
         try:
             await asyncio.wait({place}, timeout=self._settings.deadline_seconds)
         except asyncio.CancelledError:
             if place.done():
                 self._give(place.result())
             else:
-                self._line.remove(place)
+                line.remove(place)
             raise
         if not place.done():
-            self._line.remove(place)
+            line.remove(place)
             raise Overloaded("No worker became free in time; try again soon.")
         return place.result()
 
@@ -267,7 +295,9 @@ class WorkerPool:
         """Hand a worker that has nothing to do to whoever is first in line."""
         if worker.died.done():
             return
-        if self._line:
+        if self._line_for_new and worker.works == 0:
+            self._line_for_new.popleft().set_result(worker)
+        elif self._line:
             self._line.popleft().set_result(worker)
         else:
             self._idle.append(worker)

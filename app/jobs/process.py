@@ -32,6 +32,8 @@ class WorkerProcess:
         loop = asyncio.get_running_loop()
         self._expected: asyncio.Future[tuple[object, tuple[bytes, ...]]] | None = None
         self._listener: Listener | None = None
+        self.works = 0
+        """How many works it was handed."""
         self.died: asyncio.Future[None] = loop.create_future()
         self._listening = loop.create_task(self._listen())
 
@@ -68,6 +70,7 @@ class WorkerProcess:
         The ``listener`` hears the reports that the work asks for.
         """
         reply = self._next()
+        self.works += 1
         self._listener = listener
         channel.post(self._writer, work, document)
         return reply

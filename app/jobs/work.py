@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from app.answers import Answer, Options, Revised, Unchanged
-from app.errors import TubeloomError
+from app.errors import OutOfMemory, TubeloomError
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,10 +53,20 @@ class Stage:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """What became of a work. An answer's body follows as raw bytes."""
+    """What became of a work. An answer's body follows as raw bytes.
+
+    A worker that ``is_spent`` is in no state for another work: it ran out of memory, or holds more
+    than it should between works.
+    """
 
     outcome: Outcome
     stages: tuple[Stage, ...] = ()
+    is_spent: bool = False
+
+    @property
+    def ran_out(self) -> bool:
+        """Whether memory ran out at work; a worker that has done nothing yet may have enough."""
+        return self.is_spent and isinstance(self.outcome, OutOfMemory)
 
 
 @dataclass(frozen=True, slots=True)

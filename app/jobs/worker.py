@@ -22,10 +22,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from app.answers import Answer, RenderOptions
-from app.errors import DocumentTooLarge, Fault, TubeloomError
+from app.answers import Answer, LayoutOptions, RenderOptions
+from app.errors import TubeloomError
 from app.jobs import channel
+from app.jobs.shortage import shortage
 from app.jobs.work import Crash, Ready, Reply, Report, Stage, Work
+from app.output.memory_needs import held_bytes
 from app.program.collection import collection_paused
 from app.settings import Settings
 
@@ -55,9 +57,18 @@ def main() -> None:
         resource.setrlimit(resource.RLIMIT_DATA, 2 * (settings.max_worker_bytes,))
         channel.send(end, _prepare(settings))
         while True:
-            work, document = channel.receive(end)
+            try:
+                work, document = channel.receive(end)
+            except MemoryError as error:
+                found = shortage(error, LayoutOptions(), settings)
+                channel.send(end, Reply(found or Crash(traceback.format_exc()), is_spent=True))
+                continue
             reply, body = do(work, document, settings, partial(channel.send, end))
+            del work, document
+            if held_bytes() - len(body) > settings.kept_worker_bytes:
+                reply = replace(reply, is_spent=True)
             channel.send(end, reply, body)
+            del reply, body
     except (EOFError, OSError):
         return
 
@@ -102,11 +113,11 @@ def do(
             show if work.reports else None,
             work.layout,
         )
-    except TubeloomError as error:
-        return Reply(error, _durations(stages)), b""
-    except MemoryError:
-        return Reply(_too_much_memory(settings), _durations(stages)), b""
-    except Exception:
+    except Exception as error:
+        if (found := shortage(error, work.options, settings)) is not None:
+            return Reply(found, _durations(stages), is_spent=True), b""
+        if isinstance(error, TubeloomError):
+            return Reply(error, _durations(stages)), b""
         return Reply(Crash(traceback.format_exc()), _durations(stages)), b""
     if isinstance(outcome, Answer):
         return Reply(replace(outcome, body=b""), _durations(stages)), outcome.body
@@ -127,13 +138,6 @@ def _prepare(settings: Settings) -> Ready | Crash:
     gc.collect()
     gc.freeze()
     return Ready(draft_problem())
-
-
-def _too_much_memory(settings: Settings) -> DocumentTooLarge:
-    most = settings.max_worker_bytes / 1024**3
-    return DocumentTooLarge(
-        [Fault("", f"The answer would take more than the {most:g} GiB of memory that it may.")]
-    )
 
 
 def _durations(stages: list[tuple[str, float]]) -> tuple[Stage, ...]:

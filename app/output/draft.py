@@ -15,8 +15,9 @@ from app.errors import RendererUnavailable
 from app.output.draft_scene import Normalization, draft_scene
 from app.output.draft_stage import stage
 from app.output.draft_view import MOST_SIDE, Pixels, frame, sampling, tiling
-from app.output.gl_context import begin_with_renderer, with_renderer
+from app.output.gl_context import begin_with_renderer, has_renderer, with_renderer
 from app.output.gl_platform import draft_problem
+from app.output.memory_needs import DRAFT_SCENE, draft_bytes, require, scene_bytes
 from app.output.png import encode_pixels, encode_png
 from app.scene.scene import Camera, Light, Material, Node, Primitive, Scene
 from app.solids.mesh import Mesh
@@ -101,7 +102,13 @@ def _drawn(
     samples: int,
     side: int = MOST_SIDE,
 ) -> Iterator[Pixels]:
-    """One picture for each camera, by OpenGL that has been seen to draw."""
+    """One picture for each camera, by OpenGL that has been seen to draw.
+
+    Raises `MemoryError` where there is not enough.
+    """
+    # Mesa does not survive every allocation that fails.
+    needed = draft_bytes(width, height, has_begun=has_renderer())
+    require(needed + scene_bytes(scene, *DRAFT_SCENE))
     draw_pixel()
     return _pictures(scene, cameras, width, height, samples, side)
 

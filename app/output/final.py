@@ -6,9 +6,9 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from app.arrays import Singles
@@ -18,6 +18,7 @@ from app.output.final_scene import FinalScene, final_scene
 from app.output.final_thread import wait_for
 from app.output.final_tone import melted, on_nothing, pixels
 from app.output.final_variant import final_problem, mitsuba
+from app.output.memory_needs import DENOISER, FINAL_SCENE, final_bytes, require, scene_bytes
 from app.scene.scene import Scene
 
 __all__ = ["Effort", "Final", "draw_final", "final_problem"]
@@ -28,11 +29,11 @@ USUAL_SAMPLES = 16
 FINISHING_SECONDS = 2.5e-6
 """For each pixel: what guides and denoising take when samples are there."""
 
-STRIP_PIXELS = 1 << 20
-"""Denoised at once: it takes some 800 bytes for each."""
+FINE_PIXELS = 1 << 20
+"""Of pictures that are denoised as finely as can be; of larger ones it would take half a minute."""
 
-OVERLAP = 64
-"""Rows by which strips overlap: nothing farther away is seen in what becomes of a pixel."""
+TONED_PIXELS = 1 << 18
+"""Made pixels of at once: it takes some 100 bytes for each."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +62,11 @@ def draw_final(
 
     ``seconds`` are what there is, whatever was wished for. ``progress`` may raise to end the work;
     ``preview`` is shown pictures that are not finished. Raises `RendererUnavailable` where Mitsuba
-    is missing.
+    is missing, and `MemoryError` where there is not enough.
     """
     began = time.monotonic()
+    needed = final_bytes(width, height, denoise=effort.denoise)
+    require(needed + scene_bytes(scene, *FINAL_SCENE))
     progress("building", 0.0)
     renderer = wait_for(mitsuba, lambda: progress("building", 0.0))
     world = wait_for(lambda: final_scene(renderer, scene), lambda: progress("building", 0.02))
@@ -105,11 +108,20 @@ class _Painter:
         if self._guides is None:
             self._guides = self.sampler.guides(alive)
         guides = self._guides
-        covered = guides.covered
         light = found.light[..., :3]
         if self.denoises:
             light = wait_for(lambda: _denoised(found.light, guides), alive)
-        here = np.clip(found.light[..., 3:], 0.0, 1.0)
+        height, width, _ = light.shape
+        seen = np.empty((height, width, 4 if self.transparent else 3), np.uint8)
+        rows = max(TONED_PIXELS // width, 1)
+        for top in range(0, height, rows):
+            part = slice(top, top + rows)
+            seen[part] = self._toned(light[part], found.light[part, :, 3:], guides.covered[part])
+        return Image.fromarray(seen)
+
+    def _toned(self, light: Singles, sky: Singles, covered: Singles) -> NDArray[np.uint8]:
+        """Pixels of some rows; where there is ``sky`` (height, width, 1), it is 0."""
+        here = np.clip(sky, 0.0, 1.0)
         if not (self.scene.hides_sky or self.scene.has_ground):
             here = np.clip(covered, 0.0, 1.0)[..., None]
         background = self.scene.background.astype(np.float32)
@@ -117,58 +129,31 @@ class _Painter:
         if self.scene.has_ground:
             light = melted(light, 1.0 - covered, self.scene.background)
         seen = pixels(light)
-        return Image.fromarray(on_nothing(seen, covered) if self.transparent else seen)
+        return on_nothing(seen, covered) if self.transparent else seen
 
 
 def _denoised(light: Singles, guides: Guides) -> Singles:
-    """Without noise, (height, width, 3); ``light`` has coverage as its fourth channel."""
+    """Without noise, (height, width, 3); ``light`` has coverage as its fourth channel.
+
+    Open Image Denoise does a large picture in tiles, which come to the same to the last bit.
+    """
+    import drjit
     import mitsuba_oidn
 
-    quality = mitsuba_oidn.Quality
-    height, width, _ = light.shape
-    found = np.empty((height, width, 3), np.float32)
-    strips = strips_of(height, width)
-    is_large = len(strips) > 1
-    if is_large:
-        _give_memory_back()
-    for first, last, begin, end in strips:
-        strip: Any = mitsuba_oidn.denoise(
-            np.ascontiguousarray(light[first:last, :, :3]),
-            guides.albedo[first:last],
-            guides.normals[first:last],
-            hdr=True,
-            clean_aux=True,
-            # Of large pictures the finest would take half a minute.
-            quality=quality.Balanced if is_large else quality.High,
-            # Else each strip would be looked at with an exposure of its own.
-            input_scale=1.0 if is_large else None,
-        )
-        found[begin:end] = np.asarray(strip)[begin - first : end - first]
-    return found
-
-
-def strips_of(height: int, width: int) -> list[tuple[int, int, int, int]]:
-    """Rows to denoise at once, from first to last, and which of them to keep, from begin to end.
-
-    >>> strips_of(480, 640), strips_of(900, 2048)
-    ([(0, 480, 0, 480)], [(0, 512, 0, 448), (384, 896, 448, 832), (388, 900, 832, 900)])
-    """
-    rows = max(STRIP_PIXELS // width, 6 * OVERLAP)
-    if rows >= height:
-        return [(0, height, 0, height)]
-    found = []
-    begin = 0
-    while begin < height:
-        # The last is moved up rather than made shorter: equal sizes share what is built for them.
-        first = min(max(begin - OVERLAP, 0), height - rows)
-        end = height if first + rows == height else first + rows - OVERLAP
-        found.append((first, first + rows, begin, end))
-        begin = end
-    return found
-
-
-def _give_memory_back() -> None:
-    """What tracing took, which Dr.Jit keeps for the next picture: gigabytes."""
-    import drjit
-
+    # What tracing took, which Dr.Jit keeps for the next picture.
     drjit.flush_malloc_cache()
+    found = np.empty((*light.shape[:2], 3), np.float32)
+    # A device of its own gives its memory back when it goes; a shared one would keep it.
+    device = mitsuba_oidn.Device(mitsuba_oidn.DeviceType.CPU)
+    denoiser = device.new_filter("RT")
+    denoiser.set_image("color", light)
+    denoiser.set_image("albedo", guides.albedo)
+    denoiser.set_image("normal", guides.normals)
+    denoiser.set_image("output", found)
+    denoiser.hdr = denoiser.clean_aux = True
+    is_large = light.shape[0] * light.shape[1] > FINE_PIXELS
+    quality = mitsuba_oidn.Quality
+    denoiser.quality = quality.Balanced if is_large else quality.High
+    denoiser.max_memory_mb = DENOISER
+    denoiser.execute()
+    return found

@@ -113,6 +113,9 @@ class Target:
         if not places:
             GL.glReadBuffer(GL.GL_NONE)
         status = GL.glCheckFramebufferStatus(GL.GL_FRAMEBUFFER)
+        if status == GL.GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+            # The formats are fixed, and work: a texture has got no memory.
+            raise MemoryError(f"OpenGL has no memory for {shape}")
         if status != GL.GL_FRAMEBUFFER_COMPLETE:
             raise RuntimeError(f"OpenGL does not draw into {shape}: {status}")
 

@@ -32,6 +32,11 @@ def begin_with_renderer(draw: Callable[[DraftRenderer], Result]) -> Future[Resul
     return _thread().submit(lambda: draw(_renderer()))
 
 
+def has_renderer() -> bool:
+    """Whether this process has begun to draw, and so has what that takes."""
+    return _renderer.cache_info().currsize > 0
+
+
 @lru_cache(maxsize=1)
 def _thread() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(max_workers=1, thread_name_prefix="opengl")

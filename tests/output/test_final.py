@@ -9,14 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from PIL import Image
 
 from app.arrays import Floats
 from app.output.draft import draw
 from app.output.effort import Effort
-from app.output.final import OVERLAP, draw_final, strips_of
+from app.output.final import draw_final
 from app.output.final_passes import passes_of
 from app.output.final_variant import final_problem, llvm_libraries, llvm_version
 from app.program.reading import read_program
@@ -143,16 +141,6 @@ def test_eyes_that_look_past_see_the_picture_moved() -> None:
 def test_passes_take_all_samples() -> None:
     for samples in (1, 2, 5, 16, 100):
         assert sum(passes_of(samples, 640 * 480)) == samples
-
-
-@given(height=st.integers(1, 20_000), width=st.integers(1, 16_384))
-def test_strips_keep_every_row_once_and_look_beyond_it(height: int, width: int) -> None:
-    strips = strips_of(height, width)
-    assert [row for *_, begin, end in strips for row in range(begin, end)] == list(range(height))
-    assert len({last - first for first, last, *_ in strips}) == 1
-    for first, last, begin, end in strips:
-        assert first == 0 or begin - first >= OVERLAP
-        assert last == height or last - end >= OVERLAP
 
 
 def test_every_material_is_drawn() -> None:
