@@ -69,17 +69,18 @@ def largest_size(options: RenderOptions, most: int) -> tuple[int, int] | None:
     return _scaled(options, low / 1024) if low else None
 
 
-def advice(options: RenderOptions, most: int) -> str:
+def advice(options: RenderOptions, most: int, total: int | None = None) -> str:
     """Which size would do with that much memory, or how much memory for the size asked for.
 
-    >>> advice(RenderOptions(SceneFormat.PNG, 4096, 4096), 16 << 30)
-    'Half the width and height may do, or TUBELOOM_MAX_WORKER_BYTES=34359738368.'
+    ``total`` is what this scene needs for it, if that is known.
     """
-    needed = picture_bytes(options, options.width, options.height)
+    usual = picture_bytes(options, options.width, options.height)
+    needed = total or usual
     if needed <= most:
-        return f"Half the width and height may do, or TUBELOOM_MAX_WORKER_BYTES={2 * most}."
+        more = f"TUBELOOM_MAX_WORKER_BYTES={2 * most}"
+        return f"Half the width and height or a smaller document may do, or {more}."
     ways = f"TUBELOOM_MAX_WORKER_BYTES={-(-needed // (64 * MIB)) * 64 * MIB}"
-    if (size := largest_size(options, most)) is None:
+    if (size := largest_size(options, most - max(needed - usual, 0))) is None:
         return f"No such picture fits; {ways} would do."
     return f"width={size[0]} and height={size[1]} would do, or {ways}."
 

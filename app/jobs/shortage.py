@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from app.answers import Options, RenderOptions
 from app.errors import OutOfMemory, TubeloomError
+from app.output.memory_needs import NotEnoughMemoryError
 from app.picture_limits import advice, in_gib, is_drawn
 from app.settings import Settings
 
@@ -33,7 +34,10 @@ def shortage(error: BaseException, options: Options, settings: Settings) -> OutO
     most = in_gib(settings.max_worker_bytes)
     said = f"The answer would take more than the {most} of memory that a worker may take."
     if isinstance(options, RenderOptions) and is_drawn(options):
-        return OutOfMemory(f"{said} {advice(options, settings.max_worker_bytes)}")
+        totals = (each.total for each in _origins(error) if isinstance(each, NotEnoughMemoryError))
+        return OutOfMemory(
+            f"{said} {advice(options, settings.max_worker_bytes, next(totals, None))}"
+        )
     more = f"TUBELOOM_MAX_WORKER_BYTES={2 * settings.max_worker_bytes}"
     return OutOfMemory(f"{said} A smaller document would do, or {more}.")
 

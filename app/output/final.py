@@ -65,7 +65,8 @@ def draw_final(
     is missing, and `MemoryError` where there is not enough.
     """
     began = time.monotonic()
-    needed = final_bytes(width, height, denoise=effort.denoise)
+    has_begun = mitsuba.cache_info().currsize > 0
+    needed = final_bytes(width, height, denoise=effort.denoise, has_begun=has_begun)
     require(needed + scene_bytes(scene, *FINAL_SCENE))
     progress("building", 0.0)
     renderer = wait_for(mitsuba, lambda: progress("building", 0.0))

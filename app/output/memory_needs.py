@@ -60,12 +60,13 @@ def draft_bytes(width: int, height: int, *, has_begun: bool = False) -> int:
     return start + tile * (DRAFT_SAMPLE * samples + DRAFT_PIXEL) + PAGE_PIXEL * width * height
 
 
-def final_bytes(width: int, height: int, *, denoise: bool) -> int:
-    """What drawing a final picture of ``width`` by ``height`` pixels takes at most."""
+def final_bytes(width: int, height: int, *, denoise: bool, has_begun: bool = False) -> int:
+    """What drawing a final picture takes at most; less where the renderer ``has_begun``."""
     pixels = width * height
     traced = min(pixels, TRACED_AT_ONCE) * TRACED_PIXEL
     denoised = min(pixels * DENOISED_PIXEL, DENOISER * MIB) if denoise else 0
-    return MITSUBA + _threads() * THREAD + traced + denoised + FINAL_PIXEL * pixels
+    start = 0 if has_begun else MITSUBA + _threads() * THREAD
+    return start + traced + denoised + FINAL_PIXEL * pixels
 
 
 def scene_bytes(scene: Scene, vertex: int, triangle: int) -> int:
@@ -74,11 +75,20 @@ def scene_bytes(scene: Scene, vertex: int, triangle: int) -> int:
     return sum(vertex * len(mesh.vertices) + triangle * len(mesh.faces) for mesh in meshes)
 
 
+class NotEnoughMemoryError(MemoryError):
+    """What is to be drawn needs ``total`` bytes, with all that the process holds."""
+
+    def __init__(self, total: int) -> None:
+        super().__init__(f"{total} bytes are needed.")
+        self.total = total
+
+
 def require(size: int) -> None:
-    """Raise `MemoryError` where this process may not take so many bytes more."""
+    """Raise `NotEnoughMemoryError` where this process may not take so many bytes more."""
     limit, _ = resource.getrlimit(resource.RLIMIT_DATA)
-    if limit != resource.RLIM_INFINITY and held_bytes() + size > limit:
-        raise MemoryError(f"{size} bytes more than {held_bytes()} are more than {limit}")
+    total = held_bytes() + size
+    if limit != resource.RLIM_INFINITY and total > limit:
+        raise NotEnoughMemoryError(total)
 
 
 def held_bytes() -> int:
