@@ -32,7 +32,8 @@ from app.api.guard import Guard
 from app.api.journal import Journal
 from app.api.keyring import Keyring
 from app.api.metrics import Metrics
-from app.api.problems import KINDS, answer_problem
+from app.api.problem_pictures import ProblemPictures, answer_problem
+from app.api.problems import KINDS
 from app.api.tracing import OFF, tracing_of
 from app.jobs.answering import Answering
 from app.jobs.changing import Changer
@@ -72,6 +73,7 @@ def create_app(settings: Settings | None = None, launched: list[Launched] | None
         async with AsyncExitStack() as stack:
             if tracing is not None:
                 stack.push_async_callback(asyncio.to_thread, tracing.close)
+            stack.push_async_callback(asyncio.to_thread, app.state.problem_pictures.close)
             database = Database(chosen.database_url)
             stack.push_async_callback(asyncio.to_thread, database.close)
             await asyncio.to_thread(database.migrate)
@@ -112,6 +114,7 @@ def create_app(settings: Settings | None = None, launched: list[Launched] | None
     )
     app.state.settings = chosen
     app.state.held_bodies, app.state.metrics = HeldBodies(chosen.max_held_bytes), Metrics()
+    app.state.problem_pictures = ProblemPictures()
     _protect(app, chosen)
     app.add_middleware(Journal)
     for part in ROUTED:

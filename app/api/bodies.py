@@ -18,6 +18,8 @@ from app.settings import Settings
 FORM = "application/x-www-form-urlencoded"
 """What ``curl --data-binary`` says of whatever it sends; taken for JSON out of kindness."""
 
+MOST_REPEATED = 200
+"""Characters of a header that a message repeats."""
 
 MOST_NEEDLESS_BYTES = 65_536
 """That are passed over where nothing is wanted."""
@@ -118,14 +120,15 @@ def source_of(request: Request, query: PostedQuery) -> str:
 def _check_is_json(headers: Mapping[str, str]) -> None:
     coding = headers.get("content-encoding", "identity").strip().lower()
     if coding not in {"identity", ""}:
-        raise UnsupportedMediaTypeError(f"Send the document as it is, not as {coding}.")
+        raise UnsupportedMediaTypeError(
+            f"Send the document as it is, not as {coding[:MOST_REPEATED]}."
+        )
     media_type = declared_media_type(headers)
     if media_type not in {"application/json", FORM} and not (
         media_type.startswith("application/") and media_type.endswith("+json")
     ):
-        raise UnsupportedMediaTypeError(
-            f"Send the document as application/json, not as {headers.get('content-type')}."
-        )
+        sent = headers.get("content-type", "")[:MOST_REPEATED]
+        raise UnsupportedMediaTypeError(f"Send the document as application/json, not as {sent}.")
 
 
 def _too_large(limit: int) -> str:

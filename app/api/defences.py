@@ -14,7 +14,13 @@ from urllib.parse import urlsplit
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.api.problems import ForeignPageError, RefusalError, WrongHostError, problem_response
+from app.api.problems import (
+    ForeignPageError,
+    LongQueryError,
+    RefusalError,
+    WrongHostError,
+    problem_response,
+)
 from app.settings import Settings
 
 POLICY_OF_PAGES = (
@@ -32,6 +38,12 @@ POLICY_OF_DATA = (
 
 UNASKED = frozenset({"/healthz", "/readyz"})
 """Paths that answer for every host: those who look after services know addresses only."""
+
+MOST_PARAMETERS = 200
+"""In one query; the call that knows the most knows some thirty."""
+
+MOST_REPEATED = 200
+"""Characters of a host or an origin that a message repeats."""
 
 SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
 
@@ -87,6 +99,11 @@ class Defences:
         return [*self._of_pages, *policy]
 
     def _check(self, scope: Scope) -> None:
+        parameters = scope["query_string"].count(b"&") + 1
+        if parameters > MOST_PARAMETERS:
+            raise LongQueryError(
+                f"The query has {parameters} parameters; at most {MOST_PARAMETERS} are read."
+            )
         host = origin = b""
         for name, value in scope["headers"]:
             if name == b"host":
@@ -96,8 +113,9 @@ class Defences:
         if self._is_known_host is not None and scope["path"] not in UNASKED:
             name = host_name(host.decode("latin-1"))
             if not self._is_known_host(name):
+                said = name[:MOST_REPEATED] or "a nameless host"
                 raise WrongHostError(
-                    f"This service does not answer for {name or 'a nameless host'}; "
+                    f"This service does not answer for {said}; "
                     "TUBELOOM_HOSTS says for which it does."
                 )
         if origin and self._origins is not None and scope["method"] not in SAFE:
@@ -107,7 +125,8 @@ class Defences:
         if origin in origins or "*" in origins or origin.partition("://")[2] == host:
             return
         raise ForeignPageError(
-            f"Pages of {origin} may not change anything here; TUBELOOM_CORS_ORIGINS says whose may."
+            f"Pages of {origin[:MOST_REPEATED]} may not change anything here; "
+            "TUBELOOM_CORS_ORIGINS says whose may."
         )
 
 

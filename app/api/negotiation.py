@@ -11,6 +11,12 @@ from app.api.problems import NotAcceptableError
 
 Format = TypeVar("Format")
 
+MOST_RANGES = 100
+"""Of an ``Accept`` header, that are read; browsers send some ten."""
+
+MOST_REPEATED = 200
+"""Characters of an ``Accept`` header that a message repeats."""
+
 _QUALITY = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?")
 
 
@@ -47,7 +53,9 @@ def choose(accept: str | None, offers: Mapping[str, Format]) -> Format:
     qualities = {media_type: _quality(media_type, ranges) for media_type in offers}
     best = max(qualities, key=qualities.__getitem__)
     if qualities[best] <= 0:
-        raise NotAcceptableError(f"Accepted is {accept}, but there are only {', '.join(offers)}.")
+        raise NotAcceptableError(
+            f"Accepted is {accept[:MOST_REPEATED]}, but there are only {', '.join(offers)}."
+        )
     return offers[best]
 
 
@@ -72,13 +80,13 @@ def without(media_type: str, accept: str | None) -> str | None:
     """
     if accept is None:
         return None
-    others = [part for part in accept.split(",") if media_type_of(part) != media_type]
+    others = [part for part in _parts(accept) if media_type_of(part) != media_type]
     return ",".join(others) or None
 
 
 def parse_accept(accept: str) -> tuple[Range, ...]:
-    """The ranges of an ``Accept`` header; what does not parse is left out."""
-    return tuple(found for part in accept.split(",") if (found := _parse_range(part)) is not None)
+    """The first hundred ranges of an ``Accept`` header; what does not parse is left out."""
+    return tuple(found for part in _parts(accept) if (found := _parse_range(part)) is not None)
 
 
 def media_type_of(header: str) -> str:
@@ -88,6 +96,10 @@ def media_type_of(header: str) -> str:
     'application/json'
     """
     return header.partition(";")[0].strip().lower()
+
+
+def _parts(accept: str) -> list[str]:
+    return accept.split(",", MOST_RANGES)[:MOST_RANGES]
 
 
 def _parse_range(part: str) -> Range | None:

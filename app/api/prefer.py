@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from urllib.request import parse_http_list
 
-_PREFERENCE = re.compile(
-    r"\s*([!#$%&'*+.^_`|~0-9A-Za-z-]+)\s*(?:=\s*(\"(?:[^\"\\]|\\.)*\"|[^\s;,\"]*))?[^,]*(?:,|$)"
-)
+MOST_DIGITS = 9
+"""Of seconds that a client would wait: some thirty years."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +30,10 @@ def preferences(headers: Iterable[str]) -> Preferences:
     Preferences(respond_async=True, wait=10.0)
     """
     found: dict[str, str] = {}
-    for match in _PREFERENCE.finditer(", ".join(headers)):
-        found.setdefault(match[1].lower(), (match[2] or "").strip('"'))
+    for header in headers:
+        for preference in parse_http_list(header):
+            name, _, value = preference.partition(";")[0].partition("=")
+            found.setdefault(name.strip().lower(), value.strip().strip('"'))
     wait = found.get("wait", "")
-    return Preferences("respond-async" in found, float(wait) if wait.isdecimal() else None)
+    is_whole = wait.isdecimal() and len(wait) <= MOST_DIGITS
+    return Preferences("respond-async" in found, float(wait) if is_whole else None)

@@ -17,7 +17,6 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
-from app.api.problem_pictures import problem_picture
 from app.errors import (
     LONGEST_KEY,
     DeadlineExceeded,
@@ -134,6 +133,10 @@ class WrongHostError(RefusalError):
     """The request names a host that this service is not."""
 
 
+class LongQueryError(RefusalError):
+    """The query has more parameters than are read."""
+
+
 class ForeignPageError(RefusalError):
     """A page of another origin, which is not among those allowed, wants to change something."""
 
@@ -185,6 +188,7 @@ KINDS: Mapping[type[Exception], Kind] = {
     NoKeyError: Kind(401, "no-key", "A valid key is needed."),
     WrongScopeError: Kind(403, "wrong-scope", "The key is not good for this."),
     ForeignPageError: Kind(403, "foreign-page", "Pages of this origin are not allowed."),
+    LongQueryError: Kind(400, "long-query", "The query has too many parameters."),
     WrongHostError: Kind(421, "wrong-host", "This service does not answer for that host."),
     JobNotDoneError: Kind(409, "job-not-done", "The job has no result."),
     ResultGoneError: Kind(410, "result-gone", "The result is not kept any more."),
@@ -195,14 +199,10 @@ UNEXPECTED = Kind(500, "unexpected-error", "Something went wrong that should not
 
 
 def problem_response(request: Request, error: Exception) -> Response:
-    """The problem that ``error`` is to a client, in JSON or as the picture that it asked for."""
+    """The problem that ``error`` is to a client, in JSON."""
     details = problem_of(request, error)
-    body, media_type = json.dumps(details, ensure_ascii=False).encode(), MEDIA_TYPE
-    if b"errors=image" in request.scope.get("query_string", b""):
-        body, media_type = problem_picture(details, request.query_params)
-    return Response(
-        body, status_code=details["status"], media_type=media_type, headers=_headers(error)
-    )
+    body = json.dumps(details, ensure_ascii=False).encode()
+    return Response(body, details["status"], headers_of(error), MEDIA_TYPE)
 
 
 def problem_of(request: Request, error: Exception) -> dict[str, Any]:
@@ -219,11 +219,6 @@ def problem_of(request: Request, error: Exception) -> dict[str, Any]:
     if errors := _errors(error):
         details["errors"] = errors
     return details
-
-
-async def answer_problem(request: Request, error: Exception) -> Response:
-    """`problem_response` as an exception handler of the application."""
-    return problem_response(request, error)
 
 
 def _kind_of(error: Exception) -> Kind:
@@ -273,7 +268,8 @@ def _parameter_detail(fault: Mapping[str, Any]) -> str:
     return f"{fault['msg']}."
 
 
-def _headers(error: Exception) -> Mapping[str, str] | None:
+def headers_of(error: Exception) -> Mapping[str, str] | None:
+    """Headers that say more of a problem."""
     match error:
         case HTTPException() | RefusalError():
             return error.headers

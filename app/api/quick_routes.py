@@ -69,8 +69,10 @@ class Reader:
         given = QueryParams(query_string)
         known = {field.alias or name for name, field in self._model.model_fields.items()}
         values: dict[str, Any] = {}
-        for name in given:
-            every = given.getlist(name)
+        lists: dict[str, list[str]] = {}
+        for name, value in given.multi_items():
+            lists.setdefault(name, []).append(value)
+        for name, every in lists.items():
             is_one = name not in self._lists and (name in known or len(every) == 1)
             values[name] = every[-1] if is_one else every
         try:
