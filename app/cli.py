@@ -80,11 +80,13 @@ def _serve(settings: Settings, processes: list[Launched]) -> None:
 
         import uvicorn
 
+        from app.api.allocation import return_large_blocks
         from app.api.connections import connections
         from app.api.journal import configure_logging
         from app.main import create_app
 
         configure_logging(settings.log_format)
+        return_large_blocks()
         app = create_app(settings, processes)
     gc.freeze()
 
@@ -101,7 +103,7 @@ def _serve(settings: Settings, processes: list[Launched]) -> None:
         log_config=None,
         access_log=False,
         server_header=False,
-        http=connections(settings.head_seconds),
+        http=connections(settings),
         ws="none",
         proxy_headers=bool(settings.trusted_proxies),
         forwarded_allow_ips=list(settings.trusted_proxies),

@@ -27,6 +27,7 @@ from app.api.accounts import accountant
 from app.api.bodies import HeldBodies
 from app.api.cross_origin import EXPOSED_HEADERS, HEADERS, METHODS
 from app.api.defences import Defences
+from app.api.event_streams import EventStreams
 from app.api.feed import Feed
 from app.api.guard import Guard
 from app.api.journal import Journal
@@ -35,6 +36,7 @@ from app.api.metrics import Metrics
 from app.api.problem_pictures import ProblemPictures, answer_problem
 from app.api.problems import KINDS
 from app.api.tracing import OFF, tracing_of
+from app.api.unread import Unread, UnreadAnswers
 from app.jobs.answering import Answering
 from app.jobs.changing import Changer
 from app.jobs.crew import crew_of
@@ -114,7 +116,10 @@ def create_app(settings: Settings | None = None, launched: list[Launched] | None
     )
     app.state.settings = chosen
     app.state.held_bodies, app.state.metrics = HeldBodies(chosen.max_held_bytes), Metrics()
+    app.state.unread = Unread(chosen.max_unread_bytes)
+    app.state.event_streams = EventStreams(chosen.max_watchers)
     app.state.problem_pictures = ProblemPictures()
+    app.add_middleware(UnreadAnswers, unread=app.state.unread)
     _protect(app, chosen)
     app.add_middleware(Journal)
     for part in ROUTED:

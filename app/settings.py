@@ -99,7 +99,9 @@ class Settings(BaseSettings):
         100, ge=2, description="Of each stored program; older ones cannot be restored."
     )
     max_programs: int = Field(100_000, ge=0, description="That are stored.")
-    max_watchers: int = Field(5_000, ge=0, description="Of all stored programs' events together.")
+    max_watchers: int = Field(
+        5_000, ge=0, description="Of events, of stored programs, jobs and renders together."
+    )
     look_seconds: float = Field(
         0.5,
         ge=0.05,
@@ -127,6 +129,16 @@ class Settings(BaseSettings):
         512 * 1024 * 1024, ge=1, description="Of all bodies that are read or worked on at a time."
     )
     upload_seconds: float = Field(60.0, gt=0, description="Longest that a body may take to come.")
+    max_unread_bytes: int = Field(
+        512 * 1024 * 1024,
+        ge=1,
+        description="Of all answers that wait until their clients read them.",
+    )
+    write_seconds: float = Field(
+        30.0,
+        gt=0,
+        description="After which a connection is closed whose client does not read its answer.",
+    )
     head_seconds: float = Field(
         10.0,
         gt=0,

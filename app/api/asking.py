@@ -8,6 +8,7 @@ from starlette.requests import ClientDisconnect, Request
 
 from app.answers import Options
 from app.api.conditions import known_tags
+from app.api.unread import Unread
 from app.jobs.answering import Answering
 from app.jobs.executor import Finished
 
@@ -17,9 +18,11 @@ async def ask(
 ) -> Finished:
     """The answer to a request whose body has been read.
 
-    Raises what the workers raise, and `ClientDisconnect`, which stops them, when nobody waits for
-    the answer any more.
+    Raises what the workers raise, `Overloaded` where too many answers wait to be read already, and
+    `ClientDisconnect`, which stops the work, when nobody waits for the answer any more.
     """
+    unread: Unread = request.app.state.unread
+    unread.check()
     answering: Answering = request.app.state.answering
     known = known_tags(request.headers.get("if-none-match"))
     if (finished := answering.at_hand(document, options, known, layout)) is not None:

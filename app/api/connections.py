@@ -7,6 +7,10 @@ from typing import ClassVar, cast
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
+from app.api.unread import ABORT
+from app.api.watched_transport import WatchedTransport
+from app.settings import Settings
+
 HEAD_BYTES = 64 * 1024
 
 TOO_LARGE = (
@@ -21,18 +25,24 @@ class Connection(HttpToolsProtocol):
     head_seconds: ClassVar[float]
     """How long the head of a request may take to come, and the rest of a body nobody reads."""
 
+    write_seconds: ClassVar[float]
+    """After which it is closed where the client does not read what it asked for."""
+
     _timer: asyncio.TimerHandle | None = None
     _head_bytes = 0
     _in_head = True
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Begin to wait."""
-        super().connection_made(cast("asyncio.Transport", transport))
+        inner = cast("asyncio.Transport", transport)
+        self._watched = WatchedTransport(inner, self.loop, self.write_seconds)
+        super().connection_made(self._watched)
         self._close_in(self.head_seconds)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Wait no more."""
         self._stop_timer()
+        self._watched.stop_watching()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
@@ -49,6 +59,7 @@ class Connection(HttpToolsProtocol):
     def on_message_begin(self) -> None:
         """A head begins."""
         super().on_message_begin()
+        self.scope["state"][ABORT] = self._watched.abort
         self._in_head, self._head_bytes = True, 0
         self._close_in(self.head_seconds)
 
@@ -81,10 +92,11 @@ class Connection(HttpToolsProtocol):
             self._timer = None
 
 
-def connections(seconds: float) -> type[Connection]:
-    """The class of connections whose heads may take so many ``seconds`` to come."""
+def connections(settings: Settings) -> type[Connection]:
+    """The class of connections that may take as long as the ``settings`` say."""
 
     class Limited(Connection):
-        head_seconds = seconds
+        head_seconds = settings.head_seconds
+        write_seconds = settings.write_seconds
 
     return Limited

@@ -13,20 +13,23 @@ from collections.abc import AsyncIterator
 from typing import Any
 
 import structlog
-from fastapi.sse import EventSourceResponse, format_sse_event
+from fastapi.sse import format_sse_event
 from starlette.requests import Request
-from starlette.responses import StreamingResponse
 
 from app.answers import Answer, Options
+from app.api.event_streams import EventStream
 from app.api.problems import problem_of
 from app.api.responses import headers_of
+from app.api.unread import Unread
 from app.errors import TubeloomError
 from app.jobs.answering import Answering
+from app.jobs.recent import Recent
 from app.jobs.work import Report
 
 log = structlog.get_logger("tubeloom.http")
 
-MEDIA_TYPE = EventSourceResponse.media_type
+COPIES = 4
+"""Of an answer that are in memory while it becomes an event, whose text is longer by a third."""
 
 SILENCE_SECONDS = 10.0
 """After which a comment says that there is still somebody here: proxies close what is silent."""
@@ -34,24 +37,27 @@ SILENCE_SECONDS = 10.0
 
 def event_response(
     request: Request, answering: Answering, document: bytes, options: Options, ending: str
-) -> StreamingResponse:
-    """The answer that ``answering`` will have, as events; who leaves stops the work."""
+) -> EventStream:
+    """The answer that ``answering`` will have, as events; who leaves stops the work.
+
+    Raises `Overloaded` where too many answers wait to be read already.
+    """
+    unread: Unread = request.app.state.unread
+    unread.check()
     events = _events(request, answering, document, options, ending)
-    return StreamingResponse(
-        events, media_type=MEDIA_TYPE, headers={"Cache-Control": "no-store", "Vary": "Accept"}
-    )
+    return EventStream(events, {"Vary": "Accept"})
 
 
 async def _events(
     request: Request, answering: Answering, document: bytes, options: Options, ending: str
 ) -> AsyncIterator[bytes]:
-    heard: asyncio.Queue[tuple[Report, bytes] | None] = asyncio.Queue()
+    heard: Recent[tuple[Report, bytes] | None] = Recent()
     work = asyncio.create_task(
         answering.answer(
-            document, options, listener=lambda report, preview: heard.put_nowait((report, preview))
+            document, options, listener=lambda report, preview: heard.add((report, preview))
         )
     )
-    work.add_done_callback(lambda _work: heard.put_nowait(None))
+    work.add_done_callback(lambda _work: heard.add(None))
     try:
         while True:
             try:
@@ -77,6 +83,8 @@ def _news(report: Report, preview: bytes) -> bytes:
 def _end(request: Request, work: asyncio.Task[Any], ending: str) -> bytes:
     try:
         finished = work.result()
+        unread: Unread = request.app.state.unread
+        unread.check(COPIES * sum(map(len, finished.pieces)))
     except Exception as error:
         if not isinstance(error, TubeloomError):
             log.exception("unexpected error")

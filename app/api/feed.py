@@ -149,7 +149,8 @@ class Feed:
                         events = [(newest.number, _note("reset", newest.number))]
             if events:
                 number = events[-1][0]
-                yield b"".join(event for _, event in events)
+                for _, event in events:
+                    yield event
                 if events[-1][1].startswith(_DELETED):
                     return
                 continue

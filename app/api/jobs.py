@@ -7,14 +7,14 @@ from typing import Annotated
 from fastapi import APIRouter
 from fastapi import Path as PathParameter
 from fastapi import Query as QueryParameters
-from fastapi.sse import EventSourceResponse
 from pydantic import Field
 from starlette.requests import Request
-from starlette.responses import Response, StreamingResponse
+from starlette.responses import Response
 
 from app.api import guard
 from app.api.bodies import has_body, read_document, source_of
 from app.api.conditions import known_tags
+from app.api.event_streams import EventStream
 from app.api.job_events import job_events
 from app.api.job_model import JobList, JobModel
 from app.api.job_schema import (
@@ -32,6 +32,7 @@ from app.api.scene_queries import render_options, scene_format
 from app.api.scopes import Scope
 from app.api.starting import start
 from app.api.stored_programs import content_of
+from app.api.unread import Unread
 from app.errors import NotStored
 from app.jobs.desk import Desk
 from app.jobs.failures import failure_of
@@ -124,10 +125,9 @@ async def watch_job(request: Request, job: JobId) -> Response:
     The first event tells how it is now, so whoever comes back has missed nothing that counts.
     """
     desk: Desk = request.app.state.desk
-    return StreamingResponse(
+    return EventStream(
         job_events(request, desk, await _visible(request, job)),
-        media_type=EventSourceResponse.media_type,
-        headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
+        {"X-Accel-Buffering": "no"},
     )
 
 
@@ -140,6 +140,8 @@ async def get_result(request: Request, job: JobId) -> Response:
         raise failure_of(found.problem)
     if found.result is None:
         raise JobNotDoneError(f"There is no result: the job is {found.state}.")
+    unread: Unread = request.app.state.unread
+    unread.check()
     finished = await desk.result(found.result, known_tags(request.headers.get("if-none-match")))
     if finished is None:
         raise ResultGoneError("The result is not kept any more; start the job again.")

@@ -14,6 +14,7 @@ from app.answers import ConvertOptions, LayoutOptions, Options
 from app.api import events
 from app.api.asking import ask
 from app.api.bodies import read_document, source_of
+from app.api.event_streams import MEDIA_TYPE
 from app.api.job_schema import or_job
 from app.api.negotiation import choose, names, without
 from app.api.prefer import preferences
@@ -44,9 +45,9 @@ async def render(request: Request, query: Annotated[RenderQuery, QueryParameters
     would take longer than a request may (or than `wait=` says, in seconds) becomes a job.
     """
     accept = request.headers.get("accept")
-    wanted = scene_format(query, without(events.MEDIA_TYPE, accept))
+    wanted = scene_format(query, without(MEDIA_TYPE, accept))
     options = render_options(query, wanted, source_of(request, query))
-    if names(events.MEDIA_TYPE, accept):
+    if names(MEDIA_TYPE, accept):
         document = await read_document(request, request.app.state.settings.max_body_bytes)
         answering: Answering = request.app.state.answering
         return events.event_response(request, answering, document, options, options.format.value)

@@ -13,6 +13,7 @@ from starlette.types import Receive, Scope, Send
 
 from app.answers import Answer
 from app.api.conditions import entity_tag
+from app.api.unread import Unread
 from app.jobs.executor import Finished
 
 NOTES = "Tubeloom"
@@ -23,7 +24,11 @@ COMMON_HEADERS = {"Vary": "Accept", "Cache-Control": "no-cache"}
 
 
 class PiecesResponse(Response):
-    """A response whose body goes out in the pieces in which it came."""
+    """A response whose body goes out in the pieces in which it came.
+
+    They count as unread until the client has them. Where too much is unread already, the response
+    raises `Overloaded` before it begins.
+    """
 
     def __init__(
         self, pieces: Sequence[bytes], media_type: str, headers: Mapping[str, str]
@@ -32,15 +37,21 @@ class PiecesResponse(Response):
         size = sum(map(len, pieces))
         super().__init__(media_type=media_type, headers={**headers, "Content-Length": str(size)})
 
-    async def __call__(self, _scope: Scope, _receive: Receive, send: Send) -> None:
+    async def __call__(self, scope: Scope, _receive: Receive, send: Send) -> None:
         """Send the head, then piece by piece."""
-        await send(
-            {"type": "http.response.start", "status": self.status_code, "headers": self.raw_headers}
-        )
-        for piece in self.pieces[:-1]:
-            await send({"type": "http.response.body", "body": piece, "more_body": True})
-        last = self.pieces[-1] if self.pieces else b""
-        await send({"type": "http.response.body", "body": last})
+        unread: Unread = scope["app"].state.unread
+        with unread.holding(self.pieces):
+            await send(
+                {
+                    "type": "http.response.start",
+                    "status": self.status_code,
+                    "headers": self.raw_headers,
+                }
+            )
+            for piece in self.pieces[:-1]:
+                await send({"type": "http.response.body", "body": piece, "more_body": True})
+            last = self.pieces[-1] if self.pieces else b""
+            await send({"type": "http.response.body", "body": last})
 
 
 def response_of(finished: Finished, ending: str) -> Response:

@@ -20,7 +20,7 @@ from app.api.once import check_is_same, fingerprint_of, request_of
 from app.api.preconditions import precondition
 from app.api.problems import PatchTypeError
 from app.api.queries import Flag, PostedQuery, Query, RevisionQuery
-from app.api.responses import COMMON_HEADERS, content_disposition
+from app.api.responses import COMMON_HEADERS, PiecesResponse, content_disposition
 from app.api.revision_model import (
     ListedModel,
     ProgramList,
@@ -35,6 +35,7 @@ from app.api.stored_schema import (
     describe_document,
     describe_list,
 )
+from app.api.unread import Unread
 from app.errors import NotStored
 from app.jobs.changing import Changer, Wanted, Wish
 from app.settings import Settings
@@ -95,6 +96,8 @@ async def get_program(
     request: Request, program: ProgramId, query: Annotated[RevisionQuery, QueryParameters()]
 ) -> Response:
     """The document in canonical form: what equals its default is left out."""
+    unread: Unread = request.app.state.unread
+    unread.check()
     content = await content_of(request, program, query.revision)
     tag = tag_of(content.record)
     headers = {
@@ -105,7 +108,7 @@ async def get_program(
     }
     if is_known(tag, known_tags(request.headers.get("if-none-match"))):
         return Response(status_code=304, headers=headers)
-    return Response(content.document, media_type="application/json", headers=headers)
+    return PiecesResponse((content.document,), "application/json", headers)
 
 
 @router.put("/{id}", **describe_change("put"))

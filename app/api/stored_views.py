@@ -9,14 +9,14 @@ from typing import Annotated
 
 from fastapi import APIRouter
 from fastapi import Query as QueryParameters
-from fastapi.sse import EventSourceResponse
 from pydantic import Field
 from starlette.requests import Request
-from starlette.responses import Response, StreamingResponse
+from starlette.responses import Response
 
 from app.answers import ConvertOptions, Delta, LayoutOptions, Options
 from app.api.asking import ask
 from app.api.bodies import pass_over_body
+from app.api.event_streams import EventStream
 from app.api.feed import Feed
 from app.api.negotiation import choose
 from app.api.problems import ContradictionError
@@ -103,10 +103,9 @@ async def watch_program(
     last = request.headers.get(LAST_EVENT_ID, "")
     after = int(last) if re.fullmatch(r"\d{1,9}", last) else query.after
     events = await feed.watch(program, after)
-    return StreamingResponse(
+    return EventStream(
         events,
-        media_type=EventSourceResponse.media_type,
-        headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
+        {"X-Accel-Buffering": "no"},
     )
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TypeAlias
 
+from app.jobs.recent import Recent
 from app.jobs.work import Report
 
-Heard: TypeAlias = asyncio.Queue[Report | None]
+Heard: TypeAlias = Recent[Report | None]
 """Reports of a job that this service works on; ``None`` says to look how it is now."""
 
 
@@ -29,7 +29,7 @@ class Listeners:
     @contextmanager
     def listening(self, job: str) -> Iterator[Heard]:
         """What is told of a job from now on."""
-        heard: Heard = asyncio.Queue()
+        heard: Heard = Recent()
         self._queues.setdefault(job, set()).add(heard)
         try:
             yield heard
@@ -42,7 +42,7 @@ class Listeners:
         """Tell whoever listens to one of ``jobs``."""
         for job in jobs:
             for heard in self._queues.get(job, ()):
-                heard.put_nowait(report)
+                heard.add(report)
 
     def end(self) -> None:
         """Let all go."""

@@ -128,6 +128,11 @@ def test_only_so_many_may_watch(strict: Service) -> None:
             fifth = client.get(f"{path}/events")
             assert fifth.status_code == 503
             assert "retry-after" in fifth.headers
+            # Events of renders and jobs count with them.
+            accept = {"accept": "text/event-stream"}
+            assert client.post("/v1/render", json=SMALL, headers=accept).status_code == 503
+            job = client.post("/v1/jobs", json=SMALL)
+            assert client.get(f"{job.headers['location']}/events").status_code == 503
         until(lambda: _may_watch(strict, path))
 
 
