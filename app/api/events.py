@@ -10,7 +10,7 @@ import asyncio
 import base64
 import json
 from collections.abc import AsyncIterator
-from typing import Any
+from typing import Any, TypeAlias
 
 import structlog
 from fastapi.sse import format_sse_event
@@ -35,6 +35,10 @@ SILENCE_SECONDS = 10.0
 """After which a comment says that there is still somebody here: proxies close what is silent."""
 
 
+News: TypeAlias = tuple[Report, bytes] | None
+"""A report and its preview, which may be empty; ``None``: the work is over."""
+
+
 def event_response(
     request: Request, answering: Answering, document: bytes, options: Options, ending: str
 ) -> EventStream:
@@ -51,7 +55,7 @@ def event_response(
 async def _events(
     request: Request, answering: Answering, document: bytes, options: Options, ending: str
 ) -> AsyncIterator[bytes]:
-    heard: Recent[tuple[Report, bytes] | None] = Recent()
+    heard: Recent[News] = Recent(large=_is_preview)
     work = asyncio.create_task(
         answering.answer(
             document, options, listener=lambda report, preview: heard.add((report, preview))
@@ -72,6 +76,10 @@ async def _events(
         yield _end(request, work, ending)
     finally:
         work.cancel()
+
+
+def _is_preview(news: News) -> bool:
+    return news is not None and news[1] != b""
 
 
 def _news(report: Report, preview: bytes) -> bytes:
