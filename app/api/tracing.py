@@ -10,6 +10,8 @@ import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from starlette.types import Scope
+
 from app import __version__
 from app.jobs.work import Stage
 from app.settings import Settings
@@ -22,6 +24,9 @@ OFF: TelemetryConfig = {"tracing": False, "metrics": False, "logs": False}
 
 UNTRACED = frozenset({"/healthz", "/readyz", "/metrics"})
 """Paths that machines ask for all the time, about which nobody wants to read."""
+
+LONGEST_QUERY = 8192
+"""In bytes. FastAPI reads the query of whatever it traces, and a longer one for too long."""
 
 
 class TelemetryMissingError(ImportError):
@@ -45,7 +50,7 @@ class Tracing:
             "logs": False,
             "operation_spans": False,
             "auto_configure": False,
-            "exclude": lambda scope: scope.get("path") in UNTRACED,
+            "exclude": _is_untraced,
         }
 
     def note_work(self, seconds: float, stages: Sequence[Stage]) -> None:
@@ -67,6 +72,10 @@ class Tracing:
     def close(self) -> None:
         """Send what has not been sent, within seconds."""
         self._provider.shutdown()
+
+
+def _is_untraced(scope: Scope) -> bool:
+    return scope.get("path") in UNTRACED or len(scope.get("query_string", b"")) > LONGEST_QUERY
 
 
 def tracing_of(settings: Settings) -> Tracing | None:
