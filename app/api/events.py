@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import base64
 import json
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Iterator
 from typing import Any, TypeAlias
 
 import structlog
@@ -23,13 +23,11 @@ from app.api.responses import headers_of
 from app.api.unread import Unread
 from app.errors import TubeloomError
 from app.jobs.answering import Answering
+from app.jobs.executor import Finished
 from app.jobs.recent import Recent
 from app.jobs.work import Report
 
 log = structlog.get_logger("tubeloom.http")
-
-COPIES = 4
-"""Of an answer that are in memory while it becomes an event, whose text is longer by a third."""
 
 SILENCE_SECONDS = 10.0
 """After which a comment says that there is still somebody here: proxies close what is silent."""
@@ -73,7 +71,8 @@ async def _events(
             if news is None:
                 break
             yield _news(*news)
-        yield _end(request, work, ending)
+        async for piece in _end(request, work, ending):
+            yield piece
     finally:
         work.cancel()
 
@@ -88,24 +87,32 @@ def _news(report: Report, preview: bytes) -> bytes:
     return _event("progress", {"stage": report.stage, "share": round(report.share, 4)})
 
 
-def _end(request: Request, work: asyncio.Task[Any], ending: str) -> bytes:
+async def _end(request: Request, work: asyncio.Task[Finished], ending: str) -> AsyncIterator[bytes]:
+    """The answer, piece by piece: a large one is not copied whole; or the problem."""
+    unread: Unread = request.app.state.unread
     try:
         finished = work.result()
-        unread: Unread = request.app.state.unread
-        unread.check(COPIES * sum(map(len, finished.pieces)))
+        with unread.holding(finished.pieces):
+            for piece in _answer(finished, ending):
+                yield piece
     except Exception as error:
         if not isinstance(error, TubeloomError):
             log.exception("unexpected error")
-        return _event("problem", problem_of(request, error))
+        yield _event("problem", problem_of(request, error))
+
+
+def _answer(finished: Finished, ending: str) -> Iterator[bytes]:
     assert isinstance(finished.answer, Answer), "nothing is known, so nothing is unchanged"  # noqa: S101
-    return _event(
-        "answer",
-        {
-            "media_type": finished.answer.media_type,
-            "headers": headers_of(finished, ending),
-            "base64": _base64(b"".join(finished.pieces)),
-        },
-    )
+    about = {"media_type": finished.answer.media_type, "headers": headers_of(finished, ending)}
+    begun = json.dumps(about, ensure_ascii=False).removesuffix("}")
+    yield f'event: answer\ndata: {begun}, "base64": "'.encode()
+    rest = b""
+    for piece in finished.pieces:
+        data = rest + piece
+        whole = len(data) - len(data) % 3  # three bytes become four characters
+        yield base64.b64encode(data[:whole])
+        rest = data[whole:]
+    yield base64.b64encode(rest) + b'"}\n\n'
 
 
 def _event(name: str, data: dict[str, Any]) -> bytes:
