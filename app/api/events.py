@@ -20,7 +20,7 @@ from app.answers import Answer, Options
 from app.api.event_streams import EventStream
 from app.api.problems import problem_of
 from app.api.responses import headers_of
-from app.api.unread import Unread
+from app.api.unread import SMALL_BYTES, Unread
 from app.errors import TubeloomError
 from app.jobs.answering import Answering
 from app.jobs.executor import Finished
@@ -28,6 +28,9 @@ from app.jobs.recent import Recent
 from app.jobs.work import Report
 
 log = structlog.get_logger("tubeloom.http")
+
+ENCODED_AT_ONCE = SMALL_BYTES // 4 * 3
+"""Bytes of an answer, which as text are so few that they do not count beside the answer itself."""
 
 SILENCE_SECONDS = 10.0
 """After which a comment says that there is still somebody here: proxies close what is silent."""
@@ -108,10 +111,11 @@ def _answer(finished: Finished, ending: str) -> Iterator[bytes]:
     yield f'event: answer\ndata: {begun}, "base64": "'.encode()
     rest = b""
     for piece in finished.pieces:
-        data = rest + piece
-        whole = len(data) - len(data) % 3  # three bytes become four characters
-        yield base64.b64encode(data[:whole])
-        rest = data[whole:]
+        for start in range(0, len(piece), ENCODED_AT_ONCE):
+            data = rest + piece[start : start + ENCODED_AT_ONCE]
+            whole = len(data) - len(data) % 3  # three bytes become four characters
+            yield base64.b64encode(data[:whole])
+            rest = data[whole:]
     yield base64.b64encode(rest) + b'"}\n\n'
 
 
