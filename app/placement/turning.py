@@ -68,15 +68,22 @@ def turning_up_to(direction: Vector) -> Quaternion:
     >>> turning_up_to((0.0, 0.0, 5.0))
     (0.0, 0.0, 0.0, 1.0)
     """
-    largest = max(map(abs, direction))
-    x, y, z = (component / largest for component in direction)
-    length = math.hypot(x, y, z)
-    x, y, z = x / length, y / length, z / length
-    aside = math.hypot(x, y)
-    if aside == 0.0:
+    x, y, z = _unit(direction)
+    if x == y == 0.0:
         return UNTURNED if z > 0 else (1.0, 0.0, 0.0, 0.0)
-    half = math.atan2(aside, z) / 2
-    return (-y / aside * math.sin(half), x / aside * math.sin(half), 0.0, math.cos(half))
+    # Of the direction itself: in the unit vector, what is very short has lost its digits.
+    along_x, along_y, _ = _unit((direction[0], direction[1], 0.0))
+    half = math.atan2(math.hypot(x, y), z) / 2
+    return (-along_y * math.sin(half), along_x * math.sin(half), 0.0, math.cos(half))
+
+
+def _unit(vector: Vector) -> Vector:
+    """A vector of any length but zero, as one of length 1."""
+    _, exponent = math.frexp(max(map(abs, vector)))
+    # A power of two costs no digits, and neither squares nor quotients leave the range of numbers.
+    x, y, z = (math.ldexp(component, -exponent) for component in vector)
+    length = math.hypot(x, y, z)
+    return (x / length, y / length, z / length)
 
 
 def reach(quaternion: Quaternion, size: Vector) -> Vector:

@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from app.errors import DocumentTooLarge, InconsistentDocument
 from app.hyperedges.clearance.obstacles import obstacles_of
 from app.placement.trees import tree_of
-from app.placement.turning import turned, turning_up_to
+from app.placement.turning import turned
 from app.program.csg import CsgNode
 from app.program.model import Program
 from app.program.shapes import Csg
@@ -60,12 +60,38 @@ def test_frames_within_frames_are_put_one_after_another(
     np.testing.assert_allclose(found, expected, atol=1e-9)
 
 
-@given(st.tuples(*[st.floats(-1e6, 1e6)] * 3).filter(any))
-def test_a_half_space_faces_along_its_normal(normal: tuple[float, float, float]) -> None:
+def magnitudes(most: int) -> st.SearchStrategy[float]:
+    """Numbers of both signs and of any magnitude below 10 to the power ``most``; zero, too."""
+    powers = st.integers(-324, most - 1).map(lambda power: float(f"1e{power}"))
+    return st.builds(lambda digits, power: digits * power, st.floats(-10, 10), powers)
+
+
+along_an_axis = st.builds(
+    lambda long, asides, axis: (*asides[:axis], long, *asides[axis:]),
+    st.sampled_from((-1e6, -683927.0, -1.0, -1e-3, 1.0, 1e6)),
+    st.tuples(*[magnitudes(-3)] * 2),
+    st.integers(0, 2),
+)
+"""Normals that are nearly those of an axis, or the opposite of it."""
+
+
+@example((2e-311, 2e-311, -683927.0), 1.0)
+@example((5e-324, -5e-324, 5e-324), 1.0)
+@given(
+    st.tuples(*[magnitudes(6)] * 3).filter(any) | along_an_axis,
+    st.floats(1e-3, 1e6) | st.floats(-1e6, -1e-3),
+)
+def test_a_half_space_faces_along_its_normal_and_ends_at_its_offset(
+    normal: tuple[float, float, float], offset: float
+) -> None:
+    half = {"type": "half_space", "normal": normal, "offset": offset}
+    leaf = tree_of(node(half))
+    assert isinstance(leaf, Leaf)
     unit = np.array(normal) / np.abs(normal).max()
     unit /= np.linalg.norm(unit)
-    found = turned(turning_up_to(normal), (0.0, 0.0, 1.0))
-    np.testing.assert_allclose(found, unit, atol=1e-12)
+    np.testing.assert_allclose(turned(leaf.rotation, (0.0, 0.0, 1.0)), unit, atol=1e-12)
+    for on_plane in ((0.0, 0.0, offset), (offset, 0.0, offset), (0.0, -offset, offset)):
+        assert np.dot(turned(leaf.rotation, on_plane), unit) == pytest.approx(offset, rel=1e-12)
 
 
 def test_a_leaf_keeps_its_sizes() -> None:
