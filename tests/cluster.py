@@ -15,7 +15,7 @@ from pathlib import Path
 
 import psutil
 
-from tests.service import until
+from tests.service import PATIENCE_SECONDS, until
 
 _SCHEDULER = "distributed.cli.dask_scheduler"
 _WORKER = "distributed.cli.dask_worker"
@@ -68,11 +68,11 @@ class Cluster:
         """Stop all of it."""
         self._ending.set()
         if self._watching is not None:
-            self._watching.join()
+            self._watching.join(PATIENCE_SECONDS)
         for process in (*self.workers, self.scheduler):
             if process is not None:
                 process.kill()
-                process.wait()
+                process.wait(PATIENCE_SECONDS)
 
     def log(self) -> str:
         """What all have said."""

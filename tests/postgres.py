@@ -13,8 +13,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.children import SCRIPT_SECONDS
 from tests.conftest import require
-from tests.service import until
+from tests.service import PATIENCE_SECONDS, until
 
 
 def _programs() -> Path | None:
@@ -59,7 +60,7 @@ class Postgres:
         pids = self.folder / "data" / "postmaster.pid"
         main = int(pids.read_text().split()[0])
         os.killpg(os.getpgid(main), signal.SIGKILL)
-        self.process.wait()
+        self.process.wait(PATIENCE_SECONDS)
         until(lambda: not self._answers())
         pids.unlink(missing_ok=True)
 
@@ -67,12 +68,13 @@ class Postgres:
         """Stop it, however it is."""
         if self.process is not None and self.process.poll() is None:
             os.killpg(self.process.pid, signal.SIGINT)
-            self.process.wait()
+            self.process.wait(PATIENCE_SECONDS)
 
     def _answers(self) -> bool:
         ready = subprocess.run(
             [str(self.programs / "pg_isready"), "-q", "-h", "127.0.0.1", "-p", str(self.port)],
             check=False,
+            timeout=PATIENCE_SECONDS,
         )
         return ready.returncode == 0
 
@@ -98,6 +100,7 @@ def running_postgres() -> Iterator[Postgres]:
         check=True,
         stdout=subprocess.DEVNULL,
         cwd="/",
+        timeout=SCRIPT_SECONDS,
     )
     server = Postgres(programs, folder, port)
     try:

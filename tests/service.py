@@ -37,6 +37,11 @@ class Service:
         """A client with patience."""
         return httpx.Client(base_url=self.url, timeout=PATIENCE_SECONDS)
 
+    def kill(self) -> None:
+        """``kill -9``, and wait until it is gone."""
+        self.process.kill()
+        self.process.wait(PATIENCE_SECONDS)
+
     def events(self) -> list[dict[str, Any]]:
         """The lines of its log."""
         lines = self.log.read_text().splitlines()
@@ -146,8 +151,18 @@ def running_service(folder: Path, **settings: object) -> Iterator[Service]:
             until(lambda: not warm or _all_warm(client), pause=0.05)
         yield service
     finally:
-        process.terminate()
+        end(process)
+
+
+def end(process: subprocess.Popen[Any]) -> None:
+    """Ask a process to end; where it does not, end it, and say so."""
+    process.terminate()
+    try:
         process.wait(PATIENCE_SECONDS)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait(PATIENCE_SECONDS)
+        raise
 
 
 def _all_warm(client: httpx.Client) -> bool:

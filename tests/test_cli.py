@@ -7,6 +7,7 @@ import struct
 import subprocess
 import sys
 import termios
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,8 @@ from click.testing import CliRunner
 from app import __version__
 from app.cli import main
 from app.output.stl import RECORD
-from tests.service import SMALL, large_program
+from tests.children import SCRIPT_SECONDS
+from tests.service import PATIENCE_SECONDS, SMALL, large_program
 
 
 @pytest.fixture
@@ -142,13 +144,16 @@ def standard_error_of(arguments: list[str], folder: Path) -> str:
     process = subprocess.Popen([sys.executable, "-m", "app", *arguments], stderr=theirs, cwd=folder)
     os.close(theirs)
     shown = b""
+    stopping = threading.Timer(SCRIPT_SECONDS, process.kill)
+    stopping.start()
     with os.fdopen(ours, "rb", buffering=0) as terminal:
         try:
             while piece := terminal.read(4096):
                 shown += piece
         except OSError:  # Linux says so that nobody writes to the terminal any more
             pass
-    assert process.wait() == 0, shown
+    stopping.cancel()
+    assert process.wait(PATIENCE_SECONDS) == 0, shown
     return shown.decode()
 
 

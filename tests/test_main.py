@@ -1,5 +1,6 @@
-import subprocess
 import sys
+
+from tests.children import run
 
 HEAVY = (
     "numpy",
@@ -16,5 +17,6 @@ HEAVY = (
 
 def test_the_service_starts_without_what_only_workers_need() -> None:
     code = f"import sys, app.main; print([name for name in {HEAVY} if name in sys.modules])"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = run([sys.executable, "-c", code])
+    assert done.returncode == 0, done.stderr
     assert done.stdout.strip() == "[]"

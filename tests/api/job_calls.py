@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from typing import Any
 
 import httpx
@@ -16,6 +17,15 @@ PICTURE = "format=png&quality=final&width=64&height=48&samples=1"
 
 LONG = "format=png&quality=final&width=320&height=240&samples=65536"
 """A render that takes minutes."""
+
+LASTING: Mapping[str, Any] = {"samples": 65536, "time_limit": 6}
+"""What makes a final picture go on for so many seconds, however quick the machine is."""
+
+WATCHED = "format=png&quality=final&width=96&height=72&samples=65536&time_limit=6"
+"""A small picture that is drawn for so long; no two of it are the same."""
+
+DRAWING = 0.6
+"""Share of a picture's work that is done when it begins to be drawn."""
 
 
 def program(name: str) -> dict[str, Any]:
@@ -55,7 +65,7 @@ def over(client: httpx.Client, job: str, seconds: float = 90.0) -> dict[str, Any
     return until(look, seconds)
 
 
-def at_work(client: httpx.Client, job: str, share: float = 0.6) -> dict[str, Any]:
+def at_work(client: httpx.Client, job: str, share: float = DRAWING) -> dict[str, Any]:
     """How a job is once so much of its work is done."""
 
     def look() -> dict[str, Any] | None:

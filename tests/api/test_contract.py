@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, settings
 from schemathesis.config import SchemathesisConfig
 
 from app.formats.registry import FORMATS
-from tests.service import SMALL, Service
+from tests.service import PATIENCE_SECONDS, SMALL, Service
 
 # A document can follow the schema and still contradict itself (an attachment to an item that does
 # not exist), which JSON Schema cannot say: 422 says it. Everything else that follows the schema
@@ -100,4 +100,4 @@ def stored(service: Service) -> None:
 @schema.exclude(path_regex="/events$").parametrize()  # those streams do not end
 @settings(max_examples=25, suppress_health_check=list(HealthCheck))
 def test_the_service_does_what_it_says(case: schemathesis.Case[Any], service: Service) -> None:
-    case.call_and_validate(base_url=service.url)
+    case.call_and_validate(base_url=service.url, timeout=PATIENCE_SECONDS)

@@ -1,6 +1,5 @@
 import os
 import re
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,6 +15,7 @@ from app.main import create_app
 from app.settings import Settings
 from tests.api.keys import bearer, make_key, tubeloom
 from tests.api.raw import exchange, host_of, status_of
+from tests.children import run
 from tests.service import SMALL, Service, until
 
 OPEN = {
@@ -274,12 +274,9 @@ def test_keys_are_made_listed_and_revoked_on_the_command_line(
 ) -> None:
     data = guarded_folder / "data"
     # In a process of its own, as people do it.
-    made = subprocess.run(
+    made = run(
         [sys.executable, "-m", "app", "keys", "create", "for a day", "--scope", "render"],
         env={**os.environ, "TUBELOOM_DATA_FOLDER": str(data)},
-        capture_output=True,
-        text=True,
-        check=False,
     )
     assert made.returncode == 0
     assert re.fullmatch(r"tl_[A-Za-z0-9_-]{43}\n", made.stdout)
@@ -294,7 +291,7 @@ def test_keys_are_made_listed_and_revoked_on_the_command_line(
         return next(each for each in listed.stdout.splitlines() if "for a day" in each)
 
     key_id = line().split()[0]
-    until(lambda: re.search(" render .*used 2", line()), 20)
+    until(lambda: re.search(" render .*used 2", line()))
 
     assert tubeloom("keys", "revoke", key_id, data_folder=data).exit_code == 0
     assert "revoked 2" in line()

@@ -16,9 +16,6 @@ from tests.service import Service, running_service, spent_until_gone, until
 def test_what_a_job_makes_is_what_a_plain_request_gets(client: httpx.Client) -> None:
     document = program("as a plain request")
     job = start(client, PICTURE, document)
-    early = client.get(f"{job}/result")
-    assert early.status_code == 409
-    assert early.json()["type"] == "urn:tubeloom:problem:job-not-done"
     found = over(client, job)
     assert (found["state"], found["share"], found["attempts"]) == ("done", 1.0, 1)
     assert found["created_at"] < found["started_at"] < found["finished_at"]
@@ -31,15 +28,38 @@ def test_what_a_job_makes_is_what_a_plain_request_gets(client: httpx.Client) -> 
     assert again.status_code == 304
 
 
-def test_events_tell_how_a_job_goes_on_and_how_it_ends(client: httpx.Client) -> None:
-    job = start(client, PICTURE, program("watched"))
+def test_there_is_no_result_before_the_end(client: httpx.Client) -> None:
+    job = start(client, LONG, program("asked for too early"))
+    early = client.get(f"{job}/result")
+    assert early.status_code == 409
+    assert early.json()["type"] == "urn:tubeloom:problem:job-not-done"
+    client.delete(job)
+
+
+def test_events_tell_how_a_job_goes_on(client: httpx.Client) -> None:
+    job = start(client, LONG, program("watched"))  # it does not end before it is cancelled
+    shares: list[float] = []
     with client.stream("GET", f"{job}/events") as response:
         assert response.headers["content-type"].startswith("text/event-stream")
+        heard = events(response)
+        while len(set(shares)) < 3:
+            event = next(heard)
+            assert event.name in {"waiting", "progress"}
+            shares += [event.data["share"]] * (event.name == "progress")
+        assert shares == sorted(shares)
+        assert shares[-1] < 1
+        assert client.delete(job).status_code == 204
+        assert list(heard)[-1].name == "cancelled"
+
+
+def test_events_tell_how_a_job_ends(client: httpx.Client) -> None:
+    job = start(client, PICTURE, program("awaited"))
+    with client.stream("GET", f"{job}/events") as response:
         told = list(events(response))
+    # How much a quick job tells of its way depends on how quick it is.
     shares = [event.data["share"] for event in told if event.name == "progress"]
-    assert len(shares) >= 3
     assert shares == sorted(shares)
-    assert told[-1].name == "done"
+    assert [event.name for event in told if event.name not in {"waiting", "progress"}] == ["done"]
     assert told[-1].data["state"] == "done"
 
 

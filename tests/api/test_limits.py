@@ -6,7 +6,7 @@ import httpx
 import psutil
 import pytest
 
-from tests.service import SMALL, Service, cpu_seconds
+from tests.service import PATIENCE_SECONDS, SMALL, Service, cpu_seconds
 
 MEGABYTE = 1_000_000
 
@@ -57,7 +57,7 @@ HOSTILE: dict[str, tuple[bytes | str, int]] = {
 def test_hostile_documents_are_refused_at_once(service: Service, name: str) -> None:
     body, status = HOSTILE[name]
     # Not httpx, which takes longer to send 100 MB than the service to refuse them.
-    connection = HTTPConnection(service.url.removeprefix("http://"))
+    connection = HTTPConnection(service.url.removeprefix("http://"), timeout=PATIENCE_SECONDS)
     before = computed(service)
     connection.request("POST", "/v1/render", body)
     response = connection.getresponse()

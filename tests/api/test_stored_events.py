@@ -13,7 +13,7 @@ import httpx
 import pytest
 
 from tests.api.event_streams import Event, events
-from tests.service import SMALL, Service, running_service, until
+from tests.service import PATIENCE_SECONDS, SMALL, Service, running_service, until
 
 
 @pytest.fixture
@@ -158,8 +158,8 @@ def test_two_services_on_one_database_tell_the_same_and_end_when_asked_to(tmp_pa
             thread.start()
             for each in (heard, too):
                 assert [next(each).data["revision"] for _ in range(6)] == [2, 3, 4, 5, 6, 7]
-            thread.join()
+            thread.join(PATIENCE_SECONDS)
             # Its watchers do not keep it.
             second.process.terminate()
             assert next(heard, None) is None
-            assert second.process.wait(10) is not None
+            assert second.process.wait(PATIENCE_SECONDS) is not None

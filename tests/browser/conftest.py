@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from tests.children import run_node_tests
 from tests.conftest import require
 from tests.service import Service, running_service
 
@@ -33,12 +33,4 @@ def environment(url: str) -> dict[str, str]:
 
 def run_script(name: str | Path, url: str, **further: str) -> None:
     """Run a script of tests by node's own test runner, with ``further`` in its environment."""
-    done = subprocess.run(
-        ["node", "--test", "--test-reporter=spec", str(SCRIPTS / name)],
-        env={**environment(url), **further},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=300,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
+    run_node_tests(SCRIPTS / name, {**environment(url), **further})

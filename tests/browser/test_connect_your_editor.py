@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tests.browser.conftest import run_script
 from tests.clients.ports import free_port
-from tests.service import running_service
+from tests.service import end, running_service
 
 PAGE = Path(__file__).parents[2] / "docs" / "connect-your-editor.md"
 
@@ -31,8 +31,7 @@ def served(folder: Path, port: int) -> Iterator[str]:
     try:
         yield f"http://127.0.0.1:{port}"
     finally:
-        server.terminate()
-        server.wait()
+        end(server)
 
 
 def test_the_page_of_an_editor_works_as_it_is_written(tmp_path: Path) -> None:

@@ -30,7 +30,7 @@ from tubeloom_client import (
 
 from tests.clients.ports import free_port
 from tests.clients.watching import Watcher
-from tests.service import SMALL, Service
+from tests.service import PATIENCE_SECONDS, SMALL, Service
 
 FINAL: dict[str, Any] = {"quality": "final", "width": 64, "height": 48, "samples": 1}
 LONG: dict[str, Any] = {"quality": "final", "width": 320, "height": 240, "samples": 65536}
@@ -168,7 +168,7 @@ def test_all_who_update_at_the_same_time_have_their_way(client: Client) -> None:
     for writer in writers:
         writer.start()
     for writer in writers:
-        writer.join()
+        writer.join(PATIENCE_SECONDS)
     items = client.program("contended").get()["items"]
     assert {item["id"] for item in items} >= {"w0", "w1", "w2", "w3"}
 

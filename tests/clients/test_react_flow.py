@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
-import subprocess
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
+from tests.children import Child, run_node_tests
 from tests.clients.ports import free_port
 from tests.clients.typescript_package import installed
-from tests.service import PATIENCE_SECONDS, Service, running_service
+from tests.service import Service, running_service
 
 ADAPTER = Path(__file__).parents[2] / "clients" / "react-flow" / "src"
 DRIVERS = Path(__file__).with_name("react_flow")
@@ -31,35 +32,24 @@ def adapted(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize("script", ["adapter", "linking"])
 def test_by_the_test_runner_of_node(script: str, adapted: Path, usual_service: Service) -> None:
-    done = subprocess.run(
-        ["node", "--test", "--test-reporter=spec", f"{script}.js"],
-        cwd=adapted,
-        env={**os.environ, "TUBELOOM_URL": usual_service.url, "ROUNDS": str(ROUNDS)},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=300,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
+    further = {"TUBELOOM_URL": usual_service.url, "ROUNDS": str(ROUNDS)}
+    run_node_tests(f"{script}.js", {**os.environ, **further}, cwd=adapted)
 
 
 def test_what_is_drawn_while_the_service_is_away_is_sent_when_it_is_back(
     adapted: Path, tmp_path: Path
 ) -> None:
     port = free_port()
-    with running_service(tmp_path, port=port) as service:
-        command = ["node", "offline.js", service.url]
-        editor = subprocess.Popen(command, cwd=adapted, stdout=subprocess.PIPE, text=True)
-        assert editor.stdout is not None
-        told = [editor.stdout.readline().strip() for _ in range(2)]
-        assert told[-1] == "saved"
-        service.process.kill()
-        service.process.wait()
-    assert [editor.stdout.readline().strip() for _ in range(2)] == ["sending", "offline"]
-    with running_service(tmp_path, port=port) as service:
-        rest, _ = editor.communicate(timeout=PATIENCE_SECONDS)
-        assert rest.split() == ["sending", "saved"]
-        with service.client() as client:
-            document = client.get("/v1/programs/away").json()
+    with ExitStack() as stack:
+        with running_service(tmp_path, port=port) as service:
+            command = ["node", "offline.js", service.url]
+            editor = stack.enter_context(Child(command, cwd=adapted))
+            told = [editor.hear() for _ in range(2)]
+            assert told[-1] == "saved"
+            service.kill()
+        assert [editor.hear() for _ in range(2)] == ["sending", "offline"]
+        with running_service(tmp_path, port=port) as service:
+            assert editor.rest() == ["sending", "saved"]
+            with service.client() as client:
+                document = client.get("/v1/programs/away").json()
     assert document["items"][0]["position"] == [3.0, 0.0, 0.25]
-    assert editor.returncode == 0

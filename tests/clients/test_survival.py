@@ -15,13 +15,14 @@ from typing import Any
 import pytest
 from tubeloom_client import Client, Current, Deleted, Happening, JobState, Revision
 
+from tests.api.job_calls import DRAWING, LASTING
 from tests.clients.ports import free_port
 from tests.clients.typescript_package import can_run, require_node
 from tests.clients.watching import Watcher, heard, watching_in_node
 from tests.service import PATIENCE_SECONDS, SMALL, running_service, until
 
-SLOW: dict[str, Any] = {"quality": "final", "width": 96, "height": 72, "samples": 160}
-"""A render that takes some seconds, so that the service can be killed over it."""
+SLOW: dict[str, Any] = {"quality": "final", "width": 96, "height": 72} | LASTING
+"""A render that goes on for so long that the service can be killed over it."""
 
 
 @dataclass(frozen=True)
@@ -60,26 +61,23 @@ def story(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureReque
             job = client.start(SMALL, **SLOW)
             follower = threading.Thread(target=lambda: pictures.put(job.wait(states.append)))
             follower.start()
-            until(lambda: states and states[-1].share > 0.3)
+            until(lambda: states and states[-1].share > DRAWING)
             assert not states[-1].is_over
-            service.process.kill()
-            service.process.wait()
+            service.kill()
         # Whoever writes meanwhile goes on as soon as there is a service again, and writes once.
         writer = threading.Thread(target=lambda: made.append(program.patch({"name": "meanwhile"})))
         writer.start()
         with running_service(folder, warm=False, **settings):
-            writer.join()
+            writer.join(PATIENCE_SECONDS)
             made += [program.patch({"name": str(number)}) for number in range(20)]
             # Of a program that is gone there are no revisions left to catch up on.
             since = [watcher.next() for _ in made[2:]]
             told = None if node is None else [heard(node) for _ in made[2:]]
             program.delete()
             if node is not None and told is not None:
-                rest, _ = node.communicate(timeout=PATIENCE_SECONDS)
-                assert node.returncode == 0
-                told += [json.loads(line) for line in rest.splitlines()]
+                told += [json.loads(line) for line in node.rest()]
             picture = pictures.get(timeout=2 * PATIENCE_SECONDS)
-            follower.join()
+            follower.join(PATIENCE_SECONDS)
             return Story(made, [*since, *watcher.all()], told, picture, states)
 
 

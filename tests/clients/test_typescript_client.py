@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import subprocess
 from pathlib import Path
 
 import pytest
 
+from tests import children
 from tests.clients.documented import blocks, meant_for
 from tests.clients.ports import free_port
 from tests.clients.typescript_package import PACKAGE, run, tool
@@ -47,9 +47,7 @@ def test_what_the_page_on_clients_shows_is_run_as_it_stands_there(
 ) -> None:
     script = drivers / f"meant{number}.js"
     script.write_text(meant_for(service, (drivers / f"block{number}.js").read_text()))
-    said = subprocess.run(
-        ["node", script.name], cwd=drivers, capture_output=True, text=True, check=False
-    )
+    said = children.run(["node", script.name], cwd=drivers)
     assert said.returncode == 0, said.stderr
     assert said.stdout
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import shutil
-import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 
+from tests import children
 from tests.conftest import require
 
 PACKAGE = Path(__file__).parents[2] / "clients" / "typescript"
@@ -34,7 +34,7 @@ def tool(name: str) -> str:
 
 def run(*command: str, folder: Path | None = None) -> str:
     """What a command writes; it must succeed."""
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    done = children.run(command, cwd=folder)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 

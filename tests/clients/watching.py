@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from queue import Queue
 from typing import Any
 
 from tubeloom_client import Happening, Program
 
+from tests.children import Child
 from tests.service import PATIENCE_SECONDS, Service
 
 
@@ -40,22 +38,12 @@ class Watcher(threading.Thread):
         return [self.heard.get() for _ in range(self.heard.qsize())]
 
 
-@contextmanager
-def watching_in_node(
-    drivers: Path, service: Service, program: str
-) -> Iterator[subprocess.Popen[str]]:
+def watching_in_node(drivers: Path, service: Service, program: str) -> Child:
     """A process that writes down what happens to a program."""
-    command = ["node", "watch.js", service.url, program]
-    watcher = subprocess.Popen(command, cwd=drivers, stdout=subprocess.PIPE, text=True)
-    try:
-        yield watcher
-    finally:
-        watcher.kill()
-        watcher.communicate()
+    return Child(["node", "watch.js", service.url, program], cwd=drivers)
 
 
-def heard(watcher: subprocess.Popen[str]) -> dict[str, Any]:
+def heard(watcher: Child) -> dict[str, Any]:
     """What it writes next."""
-    assert watcher.stdout is not None
-    found: dict[str, Any] = json.loads(watcher.stdout.readline())
+    found: dict[str, Any] = json.loads(watcher.hear())
     return found

@@ -8,6 +8,7 @@ from app.answers import Answer, RenderOptions
 from app.errors import Fault, InvalidDocument, PictureTooLarge, UnknownName
 from app.jobs import channel
 from app.jobs.work import Reply, Work
+from tests.service import PATIENCE_SECONDS
 
 
 def test_what_the_service_posts_a_worker_receives() -> None:
@@ -25,7 +26,7 @@ def test_what_the_service_posts_a_worker_receives() -> None:
         posting = threading.Thread(target=lambda: asyncio.run(post(ours)))
         posting.start()
         assert channel.receive(theirs) == (work, document)
-        posting.join()
+        posting.join(PATIENCE_SECONDS)
 
 
 @pytest.mark.parametrize("size", [0, 1, 5_000_000])
@@ -45,7 +46,7 @@ def test_what_a_worker_sends_the_service_hears(size: int) -> None:
         sending.start()
         heard, pieces = asyncio.run(hear(ours))
         assert (heard, b"".join(pieces)) == (head, body)
-        sending.join()
+        sending.join(PATIENCE_SECONDS)
 
 
 def test_the_end_of_the_other_side_is_noticed_in_the_middle_of_a_message() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.api.job_calls import LONG, PICTURE, at_work, over, program, start
+from tests.api.job_calls import LONG, PICTURE, WATCHED, at_work, over, program, start
 from tests.cluster import Cluster, running_cluster
 from tests.postgres import Postgres, running_postgres
 from tests.service import Service, cpu_seconds, running_service, spent_until_gone, until
@@ -39,9 +39,11 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
 
 def test_a_cluster_makes_what_the_service_makes_and_tells_how_it_goes_on(site: Site) -> None:
     with site.service.client() as client:
+        long = start(client, LONG, program("watched on a cluster"))
+        assert at_work(client, long)["stage"] == "drawing"
+        client.delete(long)
         document = program("on a cluster")
         job = start(client, PICTURE, document)
-        assert at_work(client, job)["stage"] == "drawing"
         found = over(client, job)
         assert (found["state"], found["attempts"]) == ("done", 1)
         plain = client.post(f"/v1/render?{PICTURE}", json=document)
@@ -71,10 +73,9 @@ def test_who_cancels_a_job_frees_a_processor_of_the_cluster_within_a_second(site
 
 
 def test_jobs_end_once_whatever_is_killed(site: Site) -> None:
-    query = "format=png&quality=final&width=96&height=72&samples=64"
     documents = [program(f"among the dying {number}") for number in range(3)]
     with site.service.client() as client:
-        jobs = [start(client, query, document) for document in (*documents, documents[0])]
+        jobs = [start(client, WATCHED, document) for document in (*documents, documents[0])]
         at_work(client, jobs[0])
         site.cluster.kill_worker(0)
         site.cluster.kill_worker(1)

@@ -6,7 +6,6 @@ import itertools
 import json
 import shutil
 import subprocess
-import time
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,6 +16,7 @@ from typing import Any
 from websockets.sync.client import ClientConnection, connect
 
 from tests.conftest import require
+from tests.service import PATIENCE_SECONDS, end, until
 
 FLAGS = (
     "--headless=new",
@@ -31,8 +31,6 @@ FLAGS = (
     "--no-first-run",
     "--remote-debugging-port=0",
 )
-
-PATIENCE_SECONDS = 60.0
 
 
 @dataclass
@@ -77,25 +75,23 @@ def page_of(html: str, folder: Path) -> Iterator[Page]:
         with connect(_address(profile), max_size=None) as socket:
             page = Page(socket)
             loaded = f"location.href === {json.dumps(file.as_uri())} && document.readyState"
-            end = time.monotonic() + PATIENCE_SECONDS
-            while page.evaluate(loaded) != "complete":
-                assert time.monotonic() < end, "The page did not load."
-                time.sleep(0.02)
+            until(lambda: page.evaluate(loaded) == "complete")
             yield page
     finally:
-        browser.terminate()
-        browser.wait(PATIENCE_SECONDS)
+        end(browser)
 
 
 def _address(profile: Path) -> str:
     """Where the page listens, once there is one."""
-    end = time.monotonic() + PATIENCE_SECONDS
     note = profile / "DevToolsActivePort"
-    while time.monotonic() < end:
+
+    def find() -> str | None:
         if note.exists() and (lines := note.read_text().splitlines()):
-            with urllib.request.urlopen(f"http://127.0.0.1:{lines[0]}/json/list") as response:
+            listed = f"http://127.0.0.1:{lines[0]}/json/list"
+            with urllib.request.urlopen(listed, timeout=PATIENCE_SECONDS) as response:
                 for target in json.load(response):
                     if target["type"] == "page":
                         return str(target["webSocketDebuggerUrl"])
-        time.sleep(0.05)
-    raise AssertionError("The browser did not start.")
+        return None
+
+    return until(find)

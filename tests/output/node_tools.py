@@ -11,6 +11,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from tests.children import SCRIPT_SECONDS, run
 from tests.conftest import require
 
 FOLDER = Path(__file__).parents[1] / "node"
@@ -41,6 +42,7 @@ def _run(script: str, files: Sequence[Path], code: str = "") -> list[dict[str, A
         input=code.encode(),
         capture_output=True,
         check=False,
+        timeout=SCRIPT_SECONDS,
     )
     assert done.returncode == 0, done.stderr.decode()
     found: list[dict[str, Any]] = json.loads(done.stdout)
@@ -56,8 +58,8 @@ def _install() -> None:
         if _installed():
             return
         require(shutil.which("npm"), "npm is not installed: apt-get install npm")
-        done = subprocess.run(["npm", "ci"], cwd=FOLDER, capture_output=True, check=False)
-        require(done.returncode == 0, f"npm ci failed: {done.stderr.decode()}")
+        done = run(["npm", "ci"], cwd=FOLDER)
+        require(done.returncode == 0, f"npm ci failed: {done.stderr}")
 
 
 def _installed() -> bool:

@@ -26,6 +26,7 @@ from app.scene.materials import Look, make_material
 from app.scene.scene import Camera, Light, Node, Primitive, Scene
 from app.settings import settings
 from app.solids.mesh import Mesh
+from tests.children import SCRIPT_SECONDS
 from tests.conftest import require
 from tests.output.scenes import (
     WHITE,
@@ -552,6 +553,7 @@ def elsewhere(platform: str) -> bytes:
         cwd=Path(__file__).parents[2],
         check=True,
         capture_output=True,
+        timeout=SCRIPT_SECONDS,
     ).stdout
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +13,7 @@ import pytest
 from app.errors import RendererUnavailable
 from app.output import gl_platform
 from app.output.gl_platform import draft_problem, find_platform, gpu_device
+from tests.children import run
 
 SHARED = ("GL", "Xrender")
 """What pyglet loads, whatever draws."""
@@ -96,4 +96,5 @@ assert not {"OpenGL", "pyrender", "trimesh", "scipy"} & set(sys.modules)
 with open("/proc/self/maps") as maps:
     assert "OSMesa" not in maps.read()
 """
-    subprocess.run([sys.executable, "-c", probe], cwd=Path(__file__).parents[2], check=True)
+    done = run([sys.executable, "-c", probe], cwd=Path(__file__).parents[2])
+    assert done.returncode == 0, done.stderr
