@@ -60,6 +60,22 @@ class Service:
             time.sleep(0.3)
         return found
 
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """None of its workers computes, be it on the quickest machine, until the block ends."""
+        held = self.workers()
+        for worker in held:
+            worker.suspend()
+        try:
+            yield
+        finally:
+            for worker in held:
+                worker.resume()
+
+    def computed(self) -> float:
+        """CPU seconds of the service and its workers so far."""
+        return sum(map(cpu_seconds, (psutil.Process(self.process.pid), *self.workers())))
+
     def busy_worker(self, spent: dict[int, float]) -> psutil.Process | None:
         """The worker that has computed since ``spent`` (CPU seconds by process) was noted."""
         for worker in self.workers():

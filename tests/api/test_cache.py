@@ -56,11 +56,14 @@ def test_the_same_question_at_the_same_time_is_worked_on_once(service: Service) 
 def test_who_leaves_does_not_end_what_another_waits_for(service: Service) -> None:
     document = large_program(303)
     with ThreadPoolExecutor(1) as background, service.client() as other, service.client() as third:
-        stays = background.submit(other.post, "/v1/render", content=document)
-        with pytest.raises(httpx.ReadTimeout):
-            third.post(
-                "/v1/render", content=document, timeout=httpx.Timeout(PATIENCE_SECONDS, read=0.2)
-            )
+        with service.held():
+            stays = background.submit(other.post, "/v1/render", content=document)
+            with pytest.raises(httpx.ReadTimeout):
+                third.post(
+                    "/v1/render",
+                    content=document,
+                    timeout=httpx.Timeout(PATIENCE_SECONDS, read=0.2),
+                )
         assert stays.result().status_code == 200
     with service.client() as client:
         until(lambda: _comes_from_cache(client, document))

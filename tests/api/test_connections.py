@@ -7,13 +7,10 @@ import pytest
 
 from app.api.connections import HEAD_BYTES
 from tests.api.raw import connect, exchange, host_of, received, status_of
-from tests.service import Service
+from tests.service import PATIENCE_SECONDS, Service
 
 SECONDS = 1
 """That a head, and a body, may take to come to the strict service."""
-
-LATER = 3
-"""So many seconds after it should be, a busy machine may close a connection."""
 
 
 def head(service: Service, size: int) -> bytes:
@@ -23,33 +20,32 @@ def head(service: Service, size: int) -> bytes:
 
 
 def trickle(service: Service, beginning: bytes, part: bytes) -> tuple[float, bytes]:
-    """Send a part again and again until the service has had enough."""
+    """Send a part again and again until the service has had enough, and closes the connection."""
     began = time.monotonic()
     with connect(service) as connection:
         connection.sendall(beginning)
         connection.settimeout(0.2)
         answer = b""
-        while time.monotonic() < began + 40:
+        while time.monotonic() < began + PATIENCE_SECONDS:
             try:
                 connection.sendall(part)
                 came = connection.recv(65536)
             except TimeoutError:
                 continue
             except OSError:
-                break
+                came = b""
             if not came:
-                break
+                return time.monotonic() - began, answer
             answer += came
-        return time.monotonic() - began, answer
+    pytest.fail("The connection was not closed.")
 
 
 def test_a_body_that_comes_too_slowly_is_refused_and_its_connection_closed(
     strict: Service,
 ) -> None:
-    seconds, answer = trickle(strict, head(strict, 1000), b" ")
+    _, answer = trickle(strict, head(strict, 1000), b" ")
     assert status_of(answer) == 408
     assert b"urn:tubeloom:problem:slow-upload" in answer
-    assert seconds < 2 * SECONDS + LATER
 
 
 def test_a_job_of_a_stored_program_takes_no_body_however_slow_or_long(strict: Service) -> None:
@@ -64,14 +60,13 @@ def test_a_head_that_comes_too_slowly_ends_the_connection(strict: Service) -> No
         silent = threads.submit(trickle, strict, b"", b"")
         for seconds, answer in (first.result(), silent.result()):
             assert answer == b""
-            assert 0.9 * SECONDS < seconds < SECONDS + LATER
+            assert seconds > 0.9 * SECONDS
 
 
 def test_a_connection_is_not_held_by_a_body_that_nobody_reads(strict: Service) -> None:
     beginning = head(strict, 10**9).replace(b"/v1/layout", b"/nowhere")
-    seconds, answer = trickle(strict, beginning, b" ")
+    _, answer = trickle(strict, beginning, b" ")
     assert status_of(answer) == 404
-    assert seconds < SECONDS + LATER
 
 
 def test_a_head_too_large_is_refused(strict: Service) -> None:
@@ -84,7 +79,7 @@ def test_a_head_too_large_is_refused(strict: Service) -> None:
         with suppress(OSError):
             connection.sendall(beginning + many + b"\r\n")
         assert received(connection)[:12] in {b"HTTP/1.1 431", b""}
-    assert httpx.get(f"{strict.url}/healthz").status_code == 200
+    assert httpx.get(f"{strict.url}/healthz", timeout=PATIENCE_SECONDS).status_code == 200
 
 
 def test_a_connection_goes_on_for_who_behaves(strict: Service) -> None:
@@ -123,5 +118,6 @@ def test_more_bodies_than_may_be_held_wait_outside(strict: Service) -> None:
             break
     else:
         pytest.fail("Nothing was refused.")
-    for _ in range(3):
-        assert httpx.post(f"{strict.url}/v1/layout", content=b" " * 900_000).status_code == 400
+    with strict.client() as client:
+        for _ in range(3):
+            assert client.post("/v1/layout", content=b" " * 900_000).status_code == 400

@@ -28,16 +28,13 @@ def test_the_last_event_is_what_a_plain_request_gets(client: httpx.Client) -> No
 
 
 def test_progress_rises_from_nothing_to_the_end(client: httpx.Client) -> None:
-    told = [
-        event.data
-        for event in stream(client, "format=glb", large_program(200))
-        if event.name == "progress"
-    ]
-    shares = [news["share"] for news in told]
-    assert len(shares) >= 3
+    told = stream(client, "format=glb", large_program(200))
+    # How much is told on the way depends on how long that takes; the beginning always is.
+    shares = [event.data["share"] for event in told if event.name == "progress"]
     assert shares == sorted(shares)
-    assert shares[0] < 0.2 < shares[-1] <= 1
-    assert "laying out hyperedges" in {news["stage"] for news in told}
+    assert shares[0] < 0.2
+    assert shares[-1] <= 1
+    assert [event.name for event in told[len(shares) :]] == ["answer"]
 
 
 def test_a_problem_ends_the_stream_as_it_would_end_a_request(client: httpx.Client) -> None:
@@ -60,10 +57,14 @@ def test_who_leaves_a_final_picture_frees_the_processor_within_a_second(service:
     with service.client() as client:
         until(lambda: client.get("/readyz").json()["workers"]["warm"] == 2)
         spent = service.spent()
-        query = "/v1/render?format=png&quality=final&samples=4096"
+        query = "/v1/render?format=png&quality=final&samples=65536"
         document = SMALL | {"name": fresh("Left")}
         with client.stream("POST", query, headers=STREAM, json=document) as response:
             told = events(response)  # unnamed it would be closed, and the stream with it
-            next(told)
+            shares: list[float] = []
+            while len(set(shares)) < 3:
+                event = next(told)
+                shares += [event.data["share"]] * (event.name == "progress")
+            assert shares == sorted(shares)
             busy = until(lambda: service.busy_worker(spent))
     assert spent_until_gone(busy) < 1.0

@@ -108,6 +108,7 @@ def test_a_job_that_fails_says_why(client: httpx.Client) -> None:
 def test_the_same_is_worked_on_once_however_many_ask(service: Service) -> None:
     document = program("asked by many")
     with service.client() as client, ThreadPoolExecutor(8) as people:
+        service.spent()  # nobody's work goes on any more
         before = made_by_workers(service)
         jobs = list(people.map(lambda _: start(client, PICTURE, document), range(8)))
         assert len(set(jobs)) == 8

@@ -88,15 +88,16 @@ def test_a_film_has_its_frames(client: httpx.Client, film: str) -> None:
 
 
 def test_the_frames_of_a_film_are_told_as_they_come(client: httpx.Client) -> None:
-    query = "/v1/render?format=webp&width=320&height=240&frames=24"
+    # Nobody waits for all of them.
+    query = "/v1/render?format=webp&width=320&height=240&frames=1000"
     document = json.loads(CLAUSE) | {"name": fresh("Filmed")}
     with client.stream(
         "POST", query, headers={"accept": "text/event-stream"}, json=document
     ) as response:
-        told = [event.data for event in events(response) if event.name == "progress"]
-    drawing = [news["share"] for news in told if news["stage"] == "drawing"]
-    assert len(drawing) >= 3
-    assert drawing == sorted(drawing)
+        told = (event.data for event in events(response) if event.name == "progress")
+        drawing = (news["share"] for news in told if news["stage"] == "drawing")
+        shares = [next(drawing) for _ in range(3)]
+        assert 0 < shares[0] < shares[1] < shares[2] < 1
 
 
 def test_a_film_of_too_many_pixels_is_refused(client: httpx.Client) -> None:

@@ -49,7 +49,7 @@ def test_a_budget_of_work_is_kept(rated: tuple[Service, Path]) -> None:
     service, data = rated
     spender, other = make_key(data, "render"), make_key(data, "render")
     with service.client() as client:
-        costly = client.post("/v1/render", content=large_program(400), headers=bearer(spender))
+        costly = client.post("/v1/render", content=large_program(1000), headers=bearer(spender))
         assert costly.status_code == 200
         refused = client.post("/v1/render", json=SMALL, headers=bearer(spender))
         assert refused.status_code == 429

@@ -268,4 +268,4 @@ def test_where_nobody_listens_patience_runs_out() -> None:
         start = time.monotonic()
         with pytest.raises(Unreachable):
             client.layout(SMALL)
-        assert 0.25 < time.monotonic() - start < 5
+        assert time.monotonic() - start > 0.25

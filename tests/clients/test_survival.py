@@ -21,7 +21,7 @@ from tests.clients.typescript_package import can_run, require_node
 from tests.clients.watching import Watcher, heard, watching_in_node
 from tests.service import PATIENCE_SECONDS, SMALL, running_service, until
 
-SLOW: dict[str, Any] = {"quality": "final", "width": 96, "height": 72} | LASTING
+SLOW: dict[str, Any] = {"quality": "final", "width": 96, "height": 72, **LASTING}
 """A render that goes on for so long that the service can be killed over it."""
 
 

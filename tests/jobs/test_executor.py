@@ -21,6 +21,9 @@ from tests.service import PATIENCE_SECONDS, SMALL, is_worker, large_program, wid
 DOCUMENT = json.dumps(SMALL).encode()
 LARGE = large_program(300)
 
+VERY_LARGE = large_program(6000)
+"""Of which no machine makes a scene in a third of a second."""
+
 
 Test = Callable[[WorkerPool], Coroutine[Any, Any, None]]
 
@@ -108,7 +111,7 @@ def test_work_beyond_the_deadline_is_stopped_and_its_worker_replaced() -> None:
         await warm(pool)
         before = worker_pids()
         with pytest.raises(DeadlineExceeded):
-            await pool.answer(LARGE, RenderOptions())
+            await pool.answer(VERY_LARGE, RenderOptions())
         await warm(pool)
         assert len(before - worker_pids()) == 1
 

@@ -16,7 +16,6 @@ from sqlalchemy import delete
 from app.errors import StoreUnavailable
 from app.store import results as module
 from app.store.database import Database
-from app.store.objects import ANSWER_SECONDS
 from app.store.results import Result, Results
 from app.store.tables import results as results_table
 
@@ -255,16 +254,14 @@ def test_keys_and_places_that_cannot_be_are_refused(folder: Path, database: Data
         Results("nonsense://x", database, 1)
 
 
-def test_a_store_that_does_not_answer_is_a_miss_soon(
+def test_a_store_that_does_not_answer_is_a_miss(
     folder: Path, database: Database, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     async def write(results: Results) -> None:
         await results.put(KEYS[0], (b"abc",), JSON, {})
 
     async def read(results: Results) -> None:
-        began = time.monotonic()
         assert await results.get(KEYS[0]) is None
-        assert time.monotonic() - began < 2 * ANSWER_SECONDS
 
     do(folder, database, write)
     with socket.create_server(("127.0.0.1", 0)) as silent:

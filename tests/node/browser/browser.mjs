@@ -1,4 +1,6 @@
 // Debian's Chromium without a window and without a graphics card, and what is seen in it.
+import assert from "node:assert/strict";
+import { isDeepStrictEqual } from "node:util";
 import { PNG } from "pngjs";
 import { chromium } from "playwright-core";
 
@@ -58,6 +60,15 @@ export async function until(find) {
     const found = await find();
     if (found) return found;
     if (Date.now() > end) throw new Error(`Not within ${PATIENCE} ms: ${find}`);
+  }
+}
+
+/** Waits until what `find` finds is `wanted`; fails with the difference if it never is. */
+export async function becomes(find, wanted, message) {
+  for (const end = Date.now() + PATIENCE; ; await new Promise((resolve) => setTimeout(resolve, 30))) {
+    const found = await find();
+    if (isDeepStrictEqual(found, wanted)) return;
+    if (Date.now() > end) assert.deepEqual(found, wanted, message);
   }
 }
 

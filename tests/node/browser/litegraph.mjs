@@ -1,7 +1,7 @@
 // Drives litegraph.js, which draws on a canvas, and looks at what Tubeloom makes of it.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { heard, launch, open, seen, difference, shown, SERVICE } from "./browser.mjs";
+import { becomes, heard, launch, open, seen, difference, shown, SERVICE } from "./browser.mjs";
 
 let browser;
 let page;
@@ -55,9 +55,10 @@ test("a node that is dragged moves there, and nothing else does", async () => {
   const revision = (await heard(page, "load")).revision;
   await drag([40 + 80, 60 - 15], [40 + 80, 60 - 15 + 40]);
   await heard(page, "load", `({ revision }) => revision > ${revision}`);
-  await page.waitForTimeout(200);
-  const after = await program();
-  const moved = after.items.filter((item, number) => JSON.stringify(item) !== JSON.stringify(before.items[number]));
-  assert.deepEqual(moved.map(({ id }) => id), [before.items[0].id]);
+  const moved = async () => {
+    const { items } = await program();
+    return items.filter((item, number) => JSON.stringify(item) !== JSON.stringify(before.items[number])).map(({ id }) => id);
+  };
+  await becomes(moved, [before.items[0].id]);
   assert.deepEqual(page.troubles, []);
 });

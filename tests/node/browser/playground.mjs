@@ -189,6 +189,8 @@ test("the scene is downloaded in other formats", async () => {
 
 test("a final picture shows how it comes, and can be stopped", async () => {
   const page = await playground(PROGRAM.replace('"Two"', `"Two at ${Date.now()}"`));
+  // With so many samples it does not end before it is stopped.
+  await page.route(/\/v1\/render\?.*quality=final/, (route) => route.continue({ url: `${route.request().url()}&samples=65536` }));
   await page.getByRole("radio", { name: "Final picture" }).check();
   const drawing = page.getByRole("group", { name: "Drawing" });
   await drawing.getByRole("progressbar").waitFor();
