@@ -14,7 +14,7 @@ from tests.service import SMALL, Service, fresh, gone, large_program, running_se
 LARGE = large_program(600)
 
 VERY_LARGE = large_program(6000)
-"""Of which no machine makes a scene in a third of a second."""
+"""Of which no machine makes a scene in a second."""
 
 
 def another(document: bytes, number: int = 1) -> bytes:
@@ -73,7 +73,7 @@ def test_who_leaves_has_the_long_work_stopped(service: Service, client: httpx.Cl
 def hurried(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     """A service of one worker that has little time and no line."""
     folder = tmp_path_factory.mktemp("hurried")
-    with running_service(folder, workers=1, max_waiting=0, deadline_seconds=0.3) as service:
+    with running_service(folder, workers=1, max_waiting=0, deadline_seconds=1) as service:
         yield service
 
 
