@@ -44,6 +44,7 @@ from app.recent_layouts import recent_layouts
 from app.revising import revise
 from app.scene.scene import Scene
 from app.settings import Settings
+from app.shared_layout import SharedLayout
 from app.staging import (
     Staged,
     Sweeping,
@@ -68,18 +69,19 @@ def answer(
     progress: Progress = silent,
     preview: Preview | None = None,
     layout: bytes | None = None,
+    shared: SharedLayout | None = None,
 ) -> Answer | Unchanged | Revised:
     """Whatever ``options`` ask of the document ``data``.
 
     ``known`` are validators of answers that the asker has. The ``layout`` of a stored program is
-    what `app.layout_record` wrote; it is shown, rather than a new one. Raises what `app.errors`
-    lists.
+    what `app.layout_record` wrote; it is shown, rather than a new one. A posted document's layout
+    may be ``shared`` with other answers. Raises what `app.errors` lists.
     """
     match options:
         case RenderOptions():
-            return render(data, options, settings, known, progress, preview, layout)
+            return render(data, options, settings, known, progress, preview, layout, shared)
         case LayoutOptions():
-            return layout_of(data, options, settings, known, progress, layout)
+            return layout_of(data, options, settings, known, progress, layout, shared)
         case ConvertOptions():
             return convert(data, options, settings, known, progress)
         case JoinOptions(film=wanted):
@@ -98,6 +100,7 @@ def render(
     progress: Progress = silent,
     preview: Preview | None = None,
     layout: bytes | None = None,
+    shared: SharedLayout | None = None,
 ) -> Answer | Unchanged:
     """The scene of the document, in ``options.format``.
 
@@ -113,6 +116,8 @@ def render(
         if is_known(etag, known):
             return Unchanged(etag)
         laid = recent or (None if layout is None else read_layout(program, layout))
+        if laid is None and shared is not None and not options.sweep:
+            laid = shared.of(program, progress)
         seconds = TIME_FOR_PICTURES * settings.deadline_seconds
         seconds = min(options.effort.time_limit or seconds, seconds)
         share = 1.0 if options.stretch is None else options.stretch.share
@@ -213,6 +218,7 @@ def layout_of(
     known: frozenset[str] = frozenset(),
     progress: Progress = silent,
     layout: bytes | None = None,
+    shared: SharedLayout | None = None,
 ) -> Answer | Unchanged:
     """The numbers of the document's layout, as JSON."""
     progress("reading", 0.0)
@@ -221,7 +227,7 @@ def layout_of(
     if is_known(etag, known):
         return Unchanged(etag)
     laid = None if layout is None else read_layout(program, layout)
-    laid = laid or lay_out(program, progress=progress)
+    laid = laid or (shared or SharedLayout()).of(program, progress)
     progress("proving clearance", 0.5)
     verdict = judge(laid)
     progress("writing", 0.6)

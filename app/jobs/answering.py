@@ -20,7 +20,7 @@ from app.answers import Answer, Options, RenderOptions, Unchanged, is_known
 from app.errors import StoreUnavailable
 from app.jobs.executor import Finished, WorkerPool
 from app.jobs.flights import Flights
-from app.jobs.memory import LARGEST_SHARE, Kept, Memory
+from app.jobs.memory import LARGEST_SHARE, Kept, Memory, body_bytes
 from app.jobs.process import Listener
 from app.settings import Settings
 from app.store.results import PIECE_BYTES, Result, Results
@@ -32,6 +32,9 @@ HASHED_AT_ONCE = 256 * 1024
 
 STORING_BYTES = 64 * 1024 * 1024
 """Of answers on their way into the store, at most; those beyond it are not kept."""
+
+LAYOUTS_SHARE = 4
+"""Of the memory for answers, so large a part again is for layouts of posted documents."""
 
 SLOW_SECONDS = 1.0
 PAUSE_SECONDS = 30.0
@@ -47,7 +50,8 @@ class Answering:
 
     def __init__(self, pool: WorkerPool, results: Results, settings: Settings) -> None:
         self._pool, self._results = pool, results
-        self._memory = Memory(settings.memory_bytes)
+        self._memory: Memory[Kept] = Memory(settings.memory_bytes, body_bytes)
+        self._layouts: Memory[bytes] = Memory(settings.memory_bytes // LAYOUTS_SHARE, len)
         self._root = hashlib.sha256(f"{__version__}\n{code_digest()}\n{_limits(settings)}".encode())
         self._flights: Flights[Finished] = Flights()
         self._storing: set[asyncio.Task[None]] = set()
@@ -75,6 +79,13 @@ class Answering:
         digest.update(layout or b"")
         return digest.hexdigest()
 
+    def _keys(self, document: bytes, options: Options, layout: bytes | None) -> tuple[str, str]:
+        """Of the answer, and of the document's layout, which other answers have in common."""
+        of_layout = self._root.copy()
+        of_layout.update(f"{getattr(options, 'source', '')}\nlayout\n".encode())
+        of_layout.update(document)
+        return self.key(document, options, layout), of_layout.hexdigest()
+
     def at_hand(
         self,
         document: bytes,
@@ -101,9 +112,9 @@ class Answering:
             finished = await self._pool.answer(document, options, known, listener, layout)
             return replace(finished, cache="miss")
         if _is_long(document, layout):
-            key = await asyncio.to_thread(self.key, document, options, layout)
+            key, layout_key = await asyncio.to_thread(self._keys, document, options, layout)
         else:
-            key = self.key(document, options, layout)
+            key, layout_key = self._keys(document, options, layout)
         if (remembered := self._remembered(key, known)) is not None:
             return remembered
 
@@ -111,9 +122,12 @@ class Answering:
             if (kept := await self._kept(key)) is not None:
                 return _finished(kept, known)
             heard = None if listener is None else tell
-            finished = await self._pool.answer(document, options, known, heard, layout)
+            shared = self._layouts.get(layout_key)
+            finished = await self._pool.answer(document, options, known, heard, layout, shared)
+            if finished.shared is not None:
+                self._layouts.put(layout_key, finished.shared)
             self._keep(key, finished)
-            return replace(finished, cache="miss")
+            return replace(finished, cache="miss", shared=None)
 
         # Work that nobody listens to makes no reports, and there are none of work that found that
         # its asker has the answer already.

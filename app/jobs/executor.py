@@ -69,7 +69,8 @@ class Finished:
     """An answer, the seconds it waited for a worker, and how long its stages took.
 
     The answer's body stands apart, in the pieces in which it came. ``cache`` tells whether it was
-    there already, or had to be worked out: for this asker, or also for others.
+    there already, or had to be worked out: for this asker, or also for others. ``shared`` is the
+    layout that was made for it.
     """
 
     answer: Answer | Unchanged
@@ -77,6 +78,7 @@ class Finished:
     waited: float
     stages: tuple[Stage, ...]
     cache: Literal["hit", "miss", "shared"] | None = None
+    shared: bytes | None = None
 
 
 class WorkerPool:
@@ -141,16 +143,18 @@ class WorkerPool:
         known: frozenset[str] = frozenset(),
         listener: Listener | None = None,
         layout: bytes | None = None,
+        shared: bytes | None = None,
     ) -> Finished:
         """Answer in a worker process. The ``listener`` hears how the work goes on.
 
-        A stored program's ``layout`` is shown as it is. Raises what the pipeline raises, and
+        A stored program's ``layout`` is shown as it is; a posted document's may be ``shared``, if
+        an earlier answer has left it. Raises what the pipeline raises, and
         `Overloaded`, `DeadlineExceeded`, `WorkerLost`. When the caller is cancelled, work that
         goes on for long is stopped.
         """
-        work = Work(options, known, reports=listener is not None, layout=layout)
+        work = Work(options, known, listener is not None, layout, shared)
         reply, pieces, waited = await self._ask(work, document, listener)
-        return Finished(outcome_of(reply), pieces, waited, reply.stages)
+        return Finished(outcome_of(reply), pieces, waited, reply.stages, shared=reply.shared)
 
     async def revise(self, document: bytes, layout: bytes | None, change: Change) -> Revised:
         """The next revision of a stored program, made in a worker process. Raises the same."""

@@ -13,13 +13,15 @@ from app.errors import OutOfMemory, TubeloomError
 class Work:
     """One call of the pipeline; the document follows as raw bytes.
 
-    ``reports`` asks for a `Report` now and then before the reply. ``layout`` is a stored program's.
+    ``reports`` asks for a `Report` now and then before the reply. ``layout`` is a stored program's;
+    ``shared`` is that of a posted document, which an earlier answer has left.
     """
 
     options: Options
     known: frozenset[str] = frozenset()
     reports: bool = False
     layout: bytes | None = None
+    shared: bytes | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,12 +58,13 @@ class Reply:
     """What became of a work. An answer's body follows as raw bytes.
 
     A worker that ``is_spent`` is in no state for another work: it ran out of memory, or holds more
-    than it should between works.
+    than it should between works. ``shared`` is the layout that it made, for other answers.
     """
 
     outcome: Outcome
     stages: tuple[Stage, ...] = ()
     is_spent: bool = False
+    shared: bytes | None = None
 
     @property
     def ran_out(self) -> bool:

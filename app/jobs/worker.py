@@ -85,6 +85,7 @@ def do(
 ) -> tuple[Reply, bytes]:
     """Answer one work, and ``send`` reports if it wants them. What goes wrong is in the reply."""
     from app import pipeline
+    from app.shared_layout import SharedLayout
 
     stages: list[tuple[str, float]] = []
     reported = -math.inf
@@ -103,6 +104,7 @@ def do(
     def show(picture: bytes) -> None:
         send(Report(stages[-1][0], share_done), picture)
 
+    shared = SharedLayout(work.shared)
     try:
         outcome = pipeline.answer(
             document,
@@ -112,6 +114,7 @@ def do(
             note,
             show if work.reports else None,
             work.layout,
+            shared,
         )
     except Exception as error:
         if (found := shortage(error, work.options, settings)) is not None:
@@ -120,7 +123,8 @@ def do(
             return Reply(error, _durations(stages)), b""
         return Reply(Crash(traceback.format_exc()), _durations(stages)), b""
     if isinstance(outcome, Answer):
-        return Reply(replace(outcome, body=b""), _durations(stages)), outcome.body
+        reply = Reply(replace(outcome, body=b""), _durations(stages), shared=shared.made)
+        return reply, outcome.body
     return Reply(outcome, _durations(stages)), b""
 
 

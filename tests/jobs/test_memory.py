@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from app.answers import Answer
-from app.jobs.memory import OVERHEAD_BYTES, Kept, Memory
+from app.jobs.memory import OVERHEAD_BYTES, Kept, Memory, body_bytes
 
 ROOM = 4 * (1000 + OVERHEAD_BYTES)
 """For four answers of a thousand bytes."""
@@ -13,7 +13,7 @@ def kept(size: int) -> Kept:
 
 
 def test_what_was_used_the_longest_ago_goes_first() -> None:
-    memory = Memory(ROOM)
+    memory = Memory(ROOM, body_bytes)
     for name in "abcd":
         memory.put(name, kept(1000))
     assert memory.get("a") == kept(1000)
@@ -22,7 +22,7 @@ def test_what_was_used_the_longest_ago_goes_first() -> None:
 
 
 def test_what_is_put_again_counts_once() -> None:
-    memory = Memory(ROOM)
+    memory = Memory(ROOM, body_bytes)
     for _ in range(9):
         memory.put("a", kept(1000))
     for name in "bcd":
@@ -31,6 +31,6 @@ def test_what_is_put_again_counts_once() -> None:
 
 
 def test_what_would_drive_out_too_much_is_not_kept() -> None:
-    memory = Memory(ROOM)
+    memory = Memory(ROOM, body_bytes)
     memory.put("a", kept(1001))
     assert memory.get("a") is None
