@@ -84,6 +84,7 @@ def lay_out(
         fidelity=wishes.fidelity,
         closest=wishes.closest,
         clearance=wishes.clearance,
+        routing=wishes.routing,
         join_heights=_join_heights(program),
         previous=None if previous is None else _previous(program, previous),
         progress=lambda share: progress("laying out hyperedges", 0.2 + 0.2 * share),
@@ -140,7 +141,14 @@ def _previous(program: Program, previous: Layout) -> Previous | None:
 def _wishes(program: Program) -> tuple[object, ...]:
     """What curves depend on, beside the places of items and hyperedges' own wishes."""
     wishes = program.layout
-    return (wishes.dimensions, wishes.curves, wishes.fidelity, wishes.closest, wishes.clearance)
+    return (
+        wishes.dimensions,
+        wishes.curves,
+        wishes.fidelity,
+        wishes.closest,
+        wishes.clearance,
+        wishes.routing,
+    )
 
 
 def _numbers(program: Program, previous: Program) -> Indices:

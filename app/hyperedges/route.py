@@ -8,6 +8,8 @@ import numpy as np
 
 from app.arrays import Floats
 from app.hyperedges.curves import join_starts, lay_out, segment_starts
+from app.hyperedges.elastic.choice import route_clear
+from app.hyperedges.elastic.route import route_elastic
 from app.hyperedges.join_planes import choose_join_planes
 from app.hyperedges.routing import Routing
 from app.hyperedges.weaving.weave import Progress
@@ -22,6 +24,7 @@ def route(
     fidelity: Literal["best", "paper"] = "best",
     closest: Literal["space", "plane"] = "space",
     clearance: float | None = 0.05,
+    routing: Literal["planes", "elastic", "auto"] = "planes",
     join_heights: Floats | None = None,
     previous: Previous | None = None,
     progress: Progress = lambda _share: None,
@@ -31,7 +34,9 @@ def route(
     ``curves`` says whether they are short trees (``steiner``) or follow one of the two readings of
     the paper. Short trees are woven so that tubes keep ``clearance`` from each other and from items
     wherever that is possible, and so that no curve bends more tightly than 1.5 times its tube's
-    radius; without a clearance (None) each is laid for itself. With a ``previous`` layout whatever
+    radius; without a clearance (None) each is laid for itself. ``routing`` says how: in ``planes``
+    (`app.hyperedges.woven`), by ``elastic`` relaxation (`app.hyperedges.elastic`), or as ``auto``
+    by the one of the two that leaves fewer faults. With a ``previous`` layout whatever
     is not new stays where it is, unless it is in the way.
 
     Of the paper's curves, ``fidelity`` says whether exactly they are wanted ("paper") or ones that
@@ -50,6 +55,10 @@ def route(
     if curves == "steiner":
         if clearance is None:
             return lay_all(placement, join_heights)
+        if routing == "elastic":
+            return route_elastic(placement, clearance, join_heights, previous, progress)
+        if routing == "auto":
+            return route_clear(placement, clearance, join_heights, previous, progress)
         return weave_all(placement, clearance, join_heights, previous, progress)
     join_planes = choose_join_planes(placement, clearance, join_heights)
     laid = lay_out(

@@ -69,8 +69,8 @@ def weave_all(
     kept = np.zeros(len(placement.radii), dtype=np.bool_)
     if previous is not None:
         kept = unmoved(placement, join_heights, previous)
-        new = _new(surroundings.obstacles, previous.placement)
-        kept &= ~_too_near(kept, placement, previous, new, surroundings.attached, clearance)
+        new = new_obstacles(surroundings.obstacles, previous.placement)
+        kept &= ~too_near(kept, placement, previous, new, surroundings.attached, clearance)
         if kept.all():
             return select(previous.routing, previous.numbers)
     best: tuple[Weave, Floats, NDArray[np.bool_]] | None = None
@@ -84,7 +84,7 @@ def weave_all(
         if best is None or woven.faults < best[0].faults or attempt < HITS:
             best = woven, radii, kept
         hit = np.flatnonzero(kept)[woven.hit]
-        hit = hit[~_meet(placement, hit, kept)]
+        hit = hit[~ending_together(placement, hit, kept)]
         if len(hit) == 0:
             break
         kept = kept.copy()
@@ -121,7 +121,9 @@ def _weave_beside(
     return weave(threads, still, around, clearance, progress), threads.radii
 
 
-def _meet(placement: Placement, hit: Indices, kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def ending_together(
+    placement: Placement, hit: Indices, kept: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
     """Which of the hyperedges ``hit`` (m,) end where one does that is not ``kept`` (h,).
 
     They touch there however they run: to weave them anew would move them for nothing.
@@ -225,7 +227,7 @@ def _still(placement: Placement, standing: Indices, old: Routing) -> Still:
     )
 
 
-def _new(obstacles: Obstacles, placement: Placement) -> Obstacles:
+def new_obstacles(obstacles: Obstacles, placement: Placement) -> Obstacles:
     """The boxes that were not in an earlier placement."""
     old = obstacles_of(placement)
     return obstacles.only(np.flatnonzero(~np.isin(_bytes(obstacles), _bytes(old))))
@@ -245,7 +247,7 @@ def _bytes(obstacles: Obstacles) -> NDArray[np.void]:
     return np.ascontiguousarray(rows).view(np.dtype((np.void, rows.itemsize * 16))).ravel()
 
 
-def _too_near(
+def too_near(
     kept: NDArray[np.bool_],
     placement: Placement,
     previous: Previous,

@@ -144,6 +144,12 @@ class Layout(Part):
         allow_inf_nan=False,
         description="Wanted between tubes' surfaces, and from items; null: do not look.",
     )
+    routing: Literal["planes", "elastic", "auto"] = Field(
+        "planes",
+        description="How 'steiner' curves keep clear of each other. 'planes': each hyperedge has a "
+        "height of its own. 'elastic': they are relaxed as elastic chains that push each other "
+        "apart. 'auto': elastic where that is proven clear, else whichever has fewer faults.",
+    )
     constraints: Many[Constraint] = ()
 
 

@@ -1,0 +1,1 @@
+"""Routing by relaxation: elastic chains of beads that push each other apart."""

@@ -1,0 +1,40 @@
+"""The trees of hyperedges as chains between joins and attachments."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from app.arrays import Flags, Floats, Indices
+
+
+class Chains(NamedTuple):
+    """c chains: the edges of h trees, over nodes: j joins first, then a attachments.
+
+    ``ends`` (c, 2) are nodes, ``local_ends`` (c, 2) the same numbered within the hyperedge: its
+    attachments first, then its joins. ``owners`` (c,), ascending: the hyperedges that chains are
+    of. ``join_starts`` and ``attachment_starts`` (h + 1,): where the joins and the attachments of
+    each hyperedge begin, each numbered from 0.
+
+    ``positions`` and unit, outward ``directions`` (a, 3) of attachments, document units; ``items``
+    (a,) are what they are on. ``radii`` (h,) are the tubes'. ``hung`` (h,): whether all attachments
+    point upwards, so that the hyperedge is an arch. ``heights`` (h,): where its joins are held, NaN
+    where they are free. ``floors`` (h,): the least height of beads.
+    """
+
+    ends: Indices
+    local_ends: Indices
+    owners: Indices
+    join_starts: Indices
+    attachment_starts: Indices
+    positions: Floats
+    directions: Floats
+    items: Indices
+    radii: Floats
+    hung: Flags
+    heights: Floats
+    floors: Floats
+
+    @property
+    def joins(self) -> int:
+        """How many joins there are."""
+        return int(self.join_starts[-1])

@@ -1,0 +1,108 @@
+"""What is wrong with fitted curves: where they come too near, or bend too much."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.arrays import Flags, Floats, Indices
+from app.grouped import rows_of
+from app.hyperedges.clearance.obstacles import Obstacles, near_obstacles, obstacle_gaps
+from app.hyperedges.clearance.own import own_contacts
+from app.hyperedges.clearance.pairs import gaps, near_pairs
+from app.hyperedges.pinches import find_pinches
+from app.hyperedges.routing import Routing
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Curves:
+    """Curves that are kept: ``points`` (g, 4, 3), ``owners`` and ``radii`` (g,)."""
+
+    points: Floats
+    owners: Indices
+    radii: Floats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Faults:
+    """Places where curves are too near, and segments that bend too much.
+
+    ``segments`` (n,) come too near; ``others`` (n,): to which other segment, those that are kept
+    behind those that move, or -1 for an item. ``places`` (n, 3) are halfway, ``ways`` (n, 3) unit
+    vectors from the other one to the segment (0 at items), ``lower`` (n,) bounds of the distance.
+    ``pinched`` (p,) segments; ``own`` (k,) hyperedges that touch themselves, at ``own_places``
+    (k, 3). ``hit`` (m,): kept hyperedges, by their owners' numbers.
+    """
+
+    segments: Indices
+    others: Indices
+    places: Floats
+    ways: Floats
+    lower: Floats
+    pinched: Indices
+    own: Indices
+    own_places: Floats
+    hit: Indices
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self.segments) + len(self.pinched) + len(self.own)
+
+
+def find_faults(
+    routing: Routing,
+    kept: Curves,
+    obstacles: Obstacles,
+    attached: Indices,
+    clearance: float,
+    active: Flags,
+) -> Faults:
+    """The faults of the hyperedges ``active`` (h,), and of others with them.
+
+    ``attached`` (k, 2), sorted: hyperedges, and items that are not in their way.
+    """
+    count = len(routing.control_points)
+    owners = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
+    asked = np.concatenate([active[owners], np.zeros(len(kept.owners), dtype=np.bool_)])
+    points = np.ascontiguousarray(np.concatenate([routing.control_points, kept.points]))
+    radii = np.concatenate([routing.radii[owners], kept.radii])
+    owners = np.concatenate([owners, kept.owners])
+    pairs = near_pairs(points, owners, radii, clearance, asked)
+    found = gaps(points, radii, pairs, clearance)
+    close = found.lower < clearance
+    pairs, at, lower, places = (
+        pairs[close],
+        found.at[close],
+        found.lower[close],
+        found.places[close],
+    )
+    items = near_obstacles(points, owners, radii, obstacles, attached, clearance, asked)
+    beside = obstacle_gaps(points, radii, obstacles, items, clearance)
+    close = beside.lower < clearance
+    part = np.flatnonzero(active)
+    some = routing.part(part)
+    own = own_contacts(some)
+    rows = rows_of(routing.segment_starts, part)
+    return Faults(
+        segments=np.concatenate([pairs[:, 0], items[close, 0]]),
+        others=np.concatenate([pairs[:, 1], np.full(int(close.sum()), -1)]),
+        places=np.concatenate([places, beside.places[close]]),
+        ways=np.concatenate([_ways(points, pairs, at), np.zeros((int(close.sum()), 3))]),
+        lower=np.concatenate([lower, beside.lower[close]]),
+        pinched=rows[find_pinches(some).segments],
+        own=part[own.hyperedges],
+        own_places=own.places,
+        hit=np.unique(owners[pairs[pairs[:, 1] >= count, 1]]),
+    )
+
+
+def _ways(points: Floats, pairs: Indices, at: Floats) -> Floats:
+    """Unit vectors (n, 3) between the nearest places of pairs, to the first."""
+    share = at[:, :, None, None]
+    rest = 1.0 - share
+    weights = np.concatenate([rest**3, 3 * rest**2 * share, 3 * rest * share**2, share**3], axis=3)
+    there = np.einsum("nkij,nkjc->nkc", weights, points[pairs])
+    way = there[:, 0] - there[:, 1]
+    return np.asarray(way / np.maximum(np.linalg.norm(way, axis=1), 1e-12)[:, None])

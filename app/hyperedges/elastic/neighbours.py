@@ -1,0 +1,155 @@
+"""Which segments of chains may come too near to each other, or to items, within a few steps.
+
+Lists that stay valid until a bead has gone half of a *skin* (Verlet 1967). They are found with
+trees of boxes, whatever the sizes of what is in them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.arrays import Flags, Floats, Indices
+from app.hyperedges.clearance.box_tree import Tree, meeting, plant
+from app.hyperedges.elastic.beads import SPACING, Beads
+from app.hyperedges.elastic.chains import Chains
+from app.hyperedges.elastic.relaxation import Near
+from app.hyperedges.elastic.rounded_boxes import Boxes
+
+TOGETHER = 7
+"""Segments of two chains that meet at a join count as one there: so many in all."""
+
+WIDER = 0.5
+"""Room for how far curves run beside their beads, over the tube's radius."""
+
+OWN = 3.0
+"""A hyperedge's own items count farther from its attachments than this times its room."""
+
+FROM_ATTACHMENT, FROM_JOIN = 3.0, 2.6
+"""How far a join is kept from its attachments, and from other joins, in distances of beads."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Items:
+    """Boxes of items to keep clear of.
+
+    ``owners`` (m,) are the boxes' items; ``tree`` is over the boxes. ``ignored`` (k, 2), sorted:
+    hyperedges, and items that are not in their way at all.
+    """
+
+    boxes: Boxes
+    owners: Indices
+    tree: Tree | None
+    ignored: Indices
+
+    @staticmethod
+    def of(boxes: Boxes, owners: Indices, ignored: Indices) -> Items:
+        """With a tree over them."""
+        if len(owners) == 0:
+            return Items(boxes, owners, None, ignored)
+        reach = np.einsum("kij,kj->ki", np.abs(boxes.rotations), boxes.halves)
+        reach += boxes.roundings[:, None]
+        nothing = np.zeros((len(owners), 1))
+        corners = [boxes.centers - reach, nothing, boxes.centers + reach, nothing]
+        return Items(boxes, owners, plant(np.hstack(corners)), ignored)
+
+
+def find_near(
+    x: Floats,
+    beads: Beads,
+    chains: Chains,
+    items: Items,
+    rooms: Floats,
+    stretch: Floats,
+    clearance: float,
+    moving: Flags,
+    size: float,
+    skin: float,
+) -> Near:
+    """What may come too near to what moves, until a bead has gone half of ``skin``.
+
+    ``rooms`` (s,) and ``size`` as for `app.hyperedges.elastic.relaxation.relax`; ``stretch`` (c,)
+    as for `app.hyperedges.elastic.run.State`; ``moving`` (b,).
+    """
+    ends = x[beads.segments]
+    around = np.zeros((len(ends), 8))
+    margins = (rooms * size + WIDER * beads.radii + 0.5 * skin)[:, None]
+    around[:, :3] = ends.min(axis=1) - margins
+    around[:, 4:7] = ends.max(axis=1) + margins
+    asked = moving[beads.segments[:, 0]] | moving[beads.segments[:, 1]]
+    pairs = np.zeros((0, 2), dtype=np.int64)
+    if len(ends) and asked.any():
+        tree = plant(around)
+        asking = tree.order[asked[tree.order]]
+        pairs = meeting(tree, around, asking, (beads.chains, beads.chains), asked)
+        pairs = pairs[~_beside_a_join(pairs, beads)]
+    near, exempt = _near_items(x, around, beads, chains, items, clearance, asked)
+    apart, distances = _apart(chains, stretch)
+    return Near(pairs, near, exempt, apart, distances)
+
+
+def _beside_a_join(pairs: Indices, beads: Beads) -> Flags:
+    """Which pairs (m, 2) of segments are on two chains of one join, and both beside it."""
+    same = np.flatnonzero(beads.owners[pairs[:, 0]] == beads.owners[pairs[:, 1]])
+    found = np.zeros(len(pairs), dtype=np.bool_)
+    chain = beads.chains[pairs[same]]
+    steps = pairs[same] - beads.segment_starts[chain]
+    counts = np.diff(beads.segment_starts)[chain]
+    for one in range(2):
+        for other in range(2):
+            meet = beads.ends[chain[:, 0], one] == beads.ends[chain[:, 1], other]
+            here = counts[:, 0] - 1 - steps[:, 0] if one else steps[:, 0]
+            there = counts[:, 1] - 1 - steps[:, 1] if other else steps[:, 1]
+            found[same[meet & (here + there < TOGETHER)]] = True
+    return found
+
+
+def _near_items(
+    x: Floats,
+    around: Floats,
+    beads: Beads,
+    chains: Chains,
+    items: Items,
+    clearance: float,
+    asked: Flags,
+) -> tuple[Indices, Floats]:
+    """Pairs (n, 2) of a segment and a box, and where the box does not count, (n, 4)."""
+    if items.tree is None or not asked.any():
+        return np.zeros((0, 2), dtype=np.int64), np.zeros((0, 4))
+    wider = around.copy()
+    wider[:, :3] -= 0.5 * clearance
+    wider[:, 4:7] += 0.5 * clearance
+    strangers = np.full(len(items.owners), -1)
+    near = meeting(items.tree, wider, np.flatnonzero(asked), (beads.owners, strangers))
+    count = int(max(items.owners.max(), chains.items.max(initial=0))) + 1
+    keys = beads.owners[near[:, 0]] * count + items.owners[near[:, 1]]
+    if len(items.ignored):
+        kept = ~np.isin(keys, items.ignored[:, 0] * count + items.ignored[:, 1])
+        near, keys = near[kept], keys[kept]
+    exempt = np.zeros((len(near), 4))
+    owners = np.repeat(np.arange(len(chains.radii)), np.diff(chains.attachment_starts))
+    attached = owners * count + chains.items
+    order = np.argsort(attached, kind="stable")
+    begins, ends = (np.searchsorted(attached[order], keys, side) for side in ("left", "right"))
+    own = np.flatnonzero(ends > begins)
+    if len(own):
+        middles = x[beads.segments[near[own, 0]]].mean(axis=1)
+        best = np.full(len(own), np.inf)
+        for step in range(int((ends - begins).max())):
+            row = order[np.minimum(begins[own] + step, ends[own] - 1)]
+            far = np.linalg.norm(chains.positions[row] - middles, axis=1)
+            nearer = far < best
+            best[nearer] = far[nearer]
+            exempt[own[nearer], :3] = chains.positions[row[nearer]]
+        exempt[own, 3] = OWN * (beads.radii[near[own, 0]] + clearance)
+    return near, exempt
+
+
+def _apart(chains: Chains, stretch: Floats) -> tuple[Indices, Floats]:
+    """Ends of chains that are to stay apart, (k, 2), and how far, (k,)."""
+    at_join = chains.ends < chains.joins
+    rows = np.flatnonzero(at_join.any(axis=1))
+    far = np.where(at_join[rows].all(axis=1), FROM_JOIN, FROM_ATTACHMENT)
+    far = far * stretch[rows]
+    return chains.ends[rows], far * SPACING * chains.radii[chains.owners[rows]]

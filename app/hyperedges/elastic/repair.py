@@ -1,0 +1,223 @@
+"""Curves that still come too near, or bend too much, are mended where they do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.arrays import Flags, Floats, Indices
+from app.hyperedges.clearance.box_tree import meeting, plant
+from app.hyperedges.elastic.assembly import routing_of
+from app.hyperedges.elastic.faults import Faults, find_faults
+from app.hyperedges.elastic.fitting import Pieces, fit
+from app.hyperedges.elastic.relaxation import Rates
+from app.hyperedges.elastic.run import ROOMY, TIGHTEST, Progress, State, Surroundings, higher, run
+from app.hyperedges.routing import Routing
+
+ROUNDS = 30
+"""How often what is wrong is mended, at most."""
+
+LIFTING = 4
+"""Every so many rounds what is wrong hangs higher instead."""
+
+HIGHER = 1.3
+MOST_SLACK = 4.0
+MOST_STRETCH = 2.5
+WIDER, MOST_WIDER = 1.2, 2.5
+
+LARGE = 2000
+"""Segments above which only beads near to what is wrong move."""
+
+NEIGHBOURHOOD = 6.0
+"""How near that is, in distances of beads."""
+
+STIFF, STILL = Rates(0.05, 0.2), Rates(0.0, 0.05)
+LIFTED = Rates(0.25, 0.2)
+SMOOTHINGS = 6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mended:
+    """Curves, and what is still wrong with them."""
+
+    routing: Routing
+    state: State
+    pieces: Pieces
+    faults: Faults
+
+
+def mend(
+    state: State,
+    around: Surroundings,
+    sweeps: Indices,
+    progress: Progress,
+    rounds: int = ROUNDS,
+) -> Mended:
+    """The best curves of so many rounds of mending."""
+    hyperedges = len(state.chains.radii)
+    active = np.ones(hyperedges, dtype=np.bool_)
+    best: Mended | None = None
+    pieces: Pieces | None = None
+    for number in range(rounds + 1):
+        progress()
+        pieces = fit(state.x, state.beads, state.chains, state.stems, sweeps, pieces, active)
+        routing = routing_of(pieces, state.x, state.chains)
+        faults = find_faults(
+            routing, around.kept, around.obstacles, around.attached, around.clearance, active
+        )
+        if best is None or faults.count < best.faults.count:
+            best = Mended(routing, replace(state, x=state.x.copy()), pieces, faults)
+        if faults.count == 0 or number == rounds:
+            break
+        before = state.x.copy()
+        wrong = troubled(faults, routing, hyperedges)
+        _loosen(state, pieces, faults)
+        near = _near(state, around, faults, routing)
+        if number % LIFTING == LIFTING - 1 and (wrong & state.chains.hung).any():
+            state = higher(state, np.where(wrong, HIGHER, 1.0) * state.curvatures)
+            run(state, around, LIFTED, 60, 1.2, progress, near)
+        else:
+            _push(state, pieces, faults, around.clearance)
+            _smooth(state, pieces, faults.pinched)
+            _stretch(state, pieces, faults.pinched)
+            run(state, around, STIFF, 24, 1.2, progress, near)
+            run(state, around, STILL, 10, 1.2, progress, near)
+            _push(state, pieces, faults, around.clearance)
+        active = wrong | _moved(state, before)
+    assert best is not None, "there is one round at least"  # noqa: S101
+    return best
+
+
+def troubled(faults: Faults, routing: Routing, hyperedges: int) -> Flags:
+    """Which hyperedges (h,) have faults."""
+    owners = np.repeat(np.arange(hyperedges), np.diff(routing.segment_starts))
+    found = np.zeros(hyperedges, dtype=np.bool_)
+    found[owners[faults.segments]] = True
+    others = faults.others[(faults.others >= 0) & (faults.others < len(owners))]
+    found[owners[others]] = True
+    found[owners[faults.pinched]] = True
+    found[faults.own] = True
+    return found
+
+
+def _moved(state: State, before: Floats) -> Flags:
+    """Which hyperedges (h,) have beads that moved."""
+    beads = state.beads
+    count = int(beads.segment_starts[-1])
+    moved = (state.x != before).any(axis=1)[beads.segments[:count]].any(axis=1)
+    found = np.zeros(len(state.chains.radii), dtype=np.bool_)
+    found[beads.owners[:count][moved]] = True
+    return found
+
+
+def _windows(
+    pieces: Pieces, state: State, segments: Indices, wider: int
+) -> tuple[Indices, Indices]:
+    """Beads along the cubics ``segments`` (n,) and ``wider`` beyond: (n, w), -1 where none is.
+
+    And the same as segments of chains.
+    """
+    beads = state.beads
+    chain = pieces.chains[segments]
+    counts = np.diff(beads.segment_starts)[chain]
+    spans = pieces.spans[segments]
+    most = int((spans[:, 1] - spans[:, 0]).max(initial=0)) + 2 * wider + 1
+    step = spans[:, :1] - wider + np.arange(most)
+    inside = (step >= 0) & (step <= counts[:, None]) & (step <= spans[:, 1:] + wider)
+    bead = beads.starts[chain][:, None] + step - 1
+    bead = np.where(step == 0, beads.ends[chain, 0][:, None], bead)
+    bead = np.where(step == counts[:, None], beads.ends[chain, 1][:, None], bead)
+    line = np.where(step < counts[:, None], beads.segment_starts[chain][:, None] + step, -1)
+    return np.where(inside, bead, -1), np.where(inside, line, -1)
+
+
+def _loosen(state: State, pieces: Pieces, faults: Faults) -> None:
+    """More slack for segments that come too near."""
+    count = len(pieces.chains)
+    others = faults.others[(faults.others >= 0) & (faults.others < count)]
+    _, lines = _windows(pieces, state, np.unique(np.concatenate([faults.segments, others])), 2)
+    rows = np.unique(lines[lines >= 0])
+    state.slack[rows] = np.minimum(state.slack[rows] + 1.0, MOST_SLACK)
+    middles = state.x[state.beads.segments[: state.beads.segment_starts[-1]]].mean(axis=1)
+    owners = state.beads.owners[: len(middles)]
+    for hyperedge, place in zip(faults.own.tolist(), faults.own_places, strict=True):
+        mine = np.flatnonzero(owners == hyperedge)
+        far = np.linalg.norm(middles[mine] - place, axis=1)
+        mine = mine[far < 2.5 * 4.0 * state.chains.radii[hyperedge]]
+        state.slack[mine] = np.minimum(state.slack[mine] + 1.0, MOST_SLACK)
+
+
+def _push(state: State, pieces: Pieces, faults: Faults, clearance: float) -> None:
+    """Move beads of two curves apart where these come too near."""
+    count = len(pieces.chains)
+    both = faults.others >= 0
+    for segments, sign in ((faults.segments, 1.0), (faults.others, -1.0)):
+        rows = np.flatnonzero(both & (segments < count))
+        if len(rows) == 0:
+            continue
+        beads, _ = _windows(pieces, state, segments[rows], 2)
+        inside = (beads >= 0) & (state.beads.free[beads] > 0.0)
+        far = np.linalg.norm(state.x[beads] - faults.places[rows, None], axis=2)
+        radius = state.chains.radii[state.chains.owners[pieces.chains[segments[rows]]]]
+        weights = np.where(inside, np.maximum(0.0, 1.0 - far / (10.0 * radius[:, None])), 0.0)
+        lack = np.maximum(1.2 * clearance - faults.lower[rows], 0.25 * radius)
+        ways = sign * np.minimum(0.6 * lack, 1.2 * radius)[:, None] * faults.ways[rows]
+        sums, totals = np.zeros_like(state.x), np.zeros(len(state.x))
+        np.add.at(sums, beads, weights[:, :, None] * ways[:, None])
+        np.add.at(totals, beads, weights)
+        state.x[:] += sums / np.maximum(totals, 1.0)[:, None]
+        np.clip(state.x[:, 2], state.beads.lows, state.beads.highs, out=state.x[:, 2])
+
+
+def _smooth(state: State, pieces: Pieces, pinched: Indices) -> None:
+    """Wider bends where curves bend too much; at joins, beads between their neighbours."""
+    if len(pinched) == 0:
+        return
+    windows, _ = _windows(pieces, state, pinched, 1)
+    beads = np.unique(windows[windows >= 0])
+    state.bends[beads] = np.minimum(
+        WIDER * state.bends[beads], MOST_WIDER * TIGHTEST * state.beads.thickness[beads]
+    )
+    chain, spans = pieces.chains[pinched], pieces.spans[pinched]
+    at_join = state.chains.ends[chain] < state.chains.joins
+    at_join[:, 0] &= spans[:, 0] == 0
+    at_join[:, 1] &= spans[:, 1] == np.diff(state.beads.segment_starts)[chain]
+    windows, _ = _windows(pieces, state, pinched[at_join.any(axis=1)], 1)
+    beads = np.unique(windows[windows >= 0])
+    beads = beads[state.beads.free[beads] > 0.0]
+    links, degrees = state.beads.links[beads], state.beads.degrees[beads]
+    for _ in range(SMOOTHINGS):
+        there = np.where((links >= 0)[:, :, None], state.x[links], 0.0)
+        state.x[beads] += 0.5 * (there.sum(axis=1) / degrees[:, None] - state.x[beads])
+
+
+def _stretch(state: State, pieces: Pieces, pinched: Indices) -> None:
+    """More room between the ends of short chains that bend too much."""
+    rows = np.unique(pieces.chains[pinched])
+    counts = np.diff(state.beads.segment_starts)[rows]
+    rows = rows[counts < ROOMY]
+    state.stretch[rows] = np.minimum(1.25 * state.stretch[rows], MOST_STRETCH)
+
+
+def _near(state: State, around: Surroundings, faults: Faults, routing: Routing) -> Flags | None:
+    """Beads near to what is wrong, (b,); None for all."""
+    beads = state.beads
+    count = int(beads.segment_starts[-1])
+    if count <= LARGE:
+        return None
+    places = np.concatenate(
+        [faults.places, routing.control_points[faults.pinched, 0], faults.own_places]
+    )
+    reach = NEIGHBOURHOOD * 4.0 * float(state.chains.radii.max())
+    asked = np.zeros((len(places), 8))
+    asked[:, :3], asked[:, 4:7] = places - reach, places + reach
+    ends = state.x[beads.segments[:count]]
+    lines = np.zeros((count, 8))
+    lines[:, :3], lines[:, 4:7] = ends.min(axis=1), ends.max(axis=1)
+    numbers = np.arange(len(places))
+    found = meeting(plant(lines), asked, numbers, (numbers, np.full(count, -1)))
+    near = np.zeros(len(state.x), dtype=np.bool_)
+    near[beads.segments[found[:, 1]]] = True
+    del around
+    return near

@@ -1,0 +1,149 @@
+"""Where chains begin: along short trees, in space or as arches over the ground."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.arrays import Flags, Floats, Indices
+from app.grouped import rows_of, starts_of
+from app.hyperedges.elastic.beads import SPACING
+from app.hyperedges.elastic.chains import Chains
+from app.hyperedges.elastic.polylines import Polylines
+from app.hyperedges.steiner.trees import short_trees
+from app.placement.placement import Placement
+
+UPWARDS = 0.7
+"""Height of a unit direction from which on an attachment points upwards."""
+
+RISE = 0.2
+"""Height of an arch over its span."""
+
+PIECES = 16
+"""Straight pieces of an arch at the start."""
+
+
+WIDE = 12.0
+"""Least length of the handles with which a chain begins at attachments, over the tube's radius."""
+
+
+def chains_of(
+    placement: Placement, chosen: Indices, join_heights: Floats, on_ground: bool
+) -> tuple[Chains, Floats]:
+    """The chains of the hyperedges ``chosen`` (k,), along short trees, and joins (j, 3).
+
+    ``join_heights`` (k,): where joins are held, NaN where they are free. Where all items stand
+    ``on_ground`` no bead comes nearer to it than its tube's radius.
+    """
+    counts = np.diff(placement.attachment_starts)[chosen]
+    rows = rows_of(placement.attachment_starts, chosen)
+    starts = starts_of(counts)
+    radii = placement.radii[chosen]
+    positions = np.ascontiguousarray(placement.attachment_positions[rows])
+    directions = np.ascontiguousarray(placement.attachment_directions[rows])
+    hung = (
+        np.minimum.reduceat(directions[:, 2], starts[:-1]) > UPWARDS if len(chosen) else counts > 0
+    )
+    numbers = np.arange(len(chosen) + 1)
+    join_starts, edge_starts = starts - 2 * numbers, 2 * starts - 3 * numbers
+    joins = np.zeros((int(join_starts[-1]), 3))
+    edges = np.zeros((int(edge_starts[-1]), 2), dtype=np.int64)
+    bases = positions + directions * _stubs(radii, counts)[:, None]
+    for kind, axes in ((hung, 2), (~hung, 3)):
+        some = np.flatnonzero(kind)
+        trees = short_trees(bases[rows_of(starts, some)][:, :axes], starts_of(counts[some]))
+        joins[rows_of(join_starts, some), :axes] = trees.joins
+        edges[rows_of(edge_starts, some)] = trees.edges
+    owners = np.repeat(np.arange(len(chosen)), np.diff(edge_starts))
+    ends = np.where(
+        edges < counts[owners, None],
+        join_starts[-1] + starts[owners, None] + edges,
+        join_starts[owners, None] + edges - counts[owners, None],
+    )
+    floors = radii if on_ground else np.full(len(radii), -np.inf)
+    chains = Chains(
+        ends=ends,
+        local_ends=edges,
+        owners=owners,
+        join_starts=join_starts,
+        attachment_starts=starts,
+        positions=positions,
+        directions=directions,
+        items=placement.attachment_items[rows],
+        radii=radii,
+        hung=hung,
+        heights=join_heights,
+        floors=floors,
+    )
+    if len(chosen):
+        _raise(chains, bases, joins)
+    return chains, joins
+
+
+def curvatures_of(chains: Chains) -> Floats:
+    """Of arches that rise by `RISE` of their spans, (h,); 0 where nothing hangs.
+
+    One curvature for all chains of a hyperedge, so that they meet in one dome: a parabola over a
+    span d that rises by R d has the second derivative 8 R / d.
+    """
+    return np.where(chains.hung, 8.0 * RISE / np.maximum(_spans(chains), 1e-9), 0.0)
+
+
+def start_lines(chains: Chains, joins: Floats) -> Polylines:
+    """Polylines from end to end of each chain: arches where it is hung, else wide bends.
+
+    Those are cubics that leave attachments along their directions, and joins straight.
+    """
+    counts = np.diff(chains.attachment_starts)
+    bases = chains.positions + chains.directions * _stubs(chains.radii, counts)[:, None]
+    nodes = np.concatenate([joins, bases])
+    first, last = nodes[chains.ends[:, 0]], nodes[chains.ends[:, 1]]
+    share = np.linspace(0.0, 1.0, PIECES + 1)[:, None]
+    rest = 1.0 - share
+    lines = first[:, None] + share * (last - first)[:, None]
+    spans = np.linalg.norm((last - first)[:, :2], axis=1)
+    bends = 0.5 * curvatures_of(chains)[chains.owners] * spans**2
+    lines[:, :, 2] += (bends[:, None, None] * share * rest)[:, :, 0]
+    handles = []
+    outward = np.concatenate([np.zeros_like(joins), chains.directions])
+    for here, there, node in ((first, last, 0), (last, first, 1)):
+        far = np.linalg.norm(there - here, axis=1)
+        least = WIDE * chains.radii[chains.owners]
+        direction = outward[chains.ends[:, node]] * np.maximum(far / 3.0, least)[:, None]
+        at_join = (chains.ends[:, node] < len(joins))[:, None]
+        handles.append(here + np.where(at_join, (there - here) / 3.0, direction))
+    weights = (rest**3, 3 * rest**2 * share, 3 * rest * share**2, share**3)
+    corners = (first, handles[0], handles[1], last)
+    cubics = sum(weight * corner[:, None] for weight, corner in zip(weights, corners, strict=True))
+    # With the attachment itself before its base.
+    whole = np.empty((len(lines), PIECES + 3, 3))
+    whole[:, 1:-1] = np.where(chains.hung[chains.owners][:, None, None], lines, cubics)
+    places = np.concatenate([joins, chains.positions])
+    whole[:, 0], whole[:, -1] = places[chains.ends[:, 0]], places[chains.ends[:, 1]]
+    size = PIECES + 3
+    return Polylines(whole.reshape(-1, 3), np.arange(len(lines) + 1) * size)
+
+
+def _stubs(radii: Floats, counts: Indices) -> Floats:
+    """How far each attachment's tube goes straight at the start, (a,)."""
+    return np.repeat(SPACING * radii, counts)
+
+
+def _spans(chains: Chains) -> Floats:
+    """Diagonals of hyperedges seen from above, (h,)."""
+    starts = chains.attachment_starts[:-1]
+    lows = np.minimum.reduceat(chains.positions[:, :2], starts, axis=0)
+    highs = np.maximum.reduceat(chains.positions[:, :2], starts, axis=0)
+    return np.asarray(np.linalg.norm(highs - lows, axis=1))
+
+
+def _raise(chains: Chains, bases: Floats, joins: Floats) -> None:
+    """Give the joins of arches a height: that of the arch over their attachments."""
+    counts = np.diff(chains.join_starts)
+    owners = np.repeat(np.arange(len(counts)), counts)
+    hung: Flags = chains.hung[owners]
+    heights = np.add.reduceat(bases[:, 2], chains.attachment_starts[:-1])
+    heights /= np.diff(chains.attachment_starts)
+    tops = heights + RISE * _spans(chains)
+    joins[hung, 2] = tops[owners][hung]
+    held = ~np.isnan(chains.heights[owners])
+    joins[held, 2] = chains.heights[owners][held]
