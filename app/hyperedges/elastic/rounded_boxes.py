@@ -42,12 +42,7 @@ class Boxes(NamedTuple):
 
 def boxes_of(obstacles: Obstacles, placement: Placement) -> Boxes:
     """The boxes of ``obstacles``, which are those of ``placement``, to push with."""
-    items = obstacles.items
-    labelled = np.array([label is not None for label in placement.labels], dtype=np.bool_)
-    # An item's label comes behind its body.
-    is_last = np.ones(len(items), dtype=np.bool_)
-    is_last[:-1] = items[1:] != items[:-1]
-    is_label = is_last & labelled[items] if len(labelled) else np.zeros(len(items), dtype=np.bool_)
+    items, is_label = obstacles.items, obstacles.letters
     halves, roundings = obstacles.halves.copy(), obstacles.roundings.copy()
     rows = np.flatnonzero(is_label)
     roundings[rows] += np.hypot(halves[rows, 1], halves[rows, 2])
