@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 from app.arrays import Floats, Indices
 from app.grouped import rows_from, starts_of
 from app.hyperedges.clearance.obstacles import Obstacles
+from app.hyperedges.clearance.passable import with_parts
 from app.placement.placement import Placement
+from app.solids.solid import Csg
 
 LEAVING = 3.0
 """Radius of the ball, over the tube's radius and the clearance: a straight tube that leaves a face
@@ -26,7 +28,8 @@ def leaving_radii(placement: Placement, bodies: Obstacles, clearance: float) -> 
     """Radii (a,) of the balls, in document units.
 
     An attachment within its item's body has a ball that is larger by its depth: the distance to the
-    surface of the box that it is deepest in.
+    surface of the box that it is deepest in. What is made of simple solids may be hollow: there it
+    is the way out of the box along the attachment's direction.
     """
     counts = np.diff(placement.attachment_starts)
     radii = LEAVING * (np.repeat(placement.radii, counts) + clearance)
@@ -39,6 +42,17 @@ def leaving_radii(placement: Placement, bodies: Obstacles, clearance: float) -> 
     within = (bodies.halves[rows] - local).min(axis=1, initial=np.inf)
     beyond = np.linalg.norm(np.maximum(local - bodies.halves[rows], 0.0), axis=1)
     depths = np.maximum(within, 0.0) + np.maximum(bodies.roundings[rows] - beyond, 0.0)
+    is_csg = np.array([isinstance(solid, Csg) for solid in placement.solids], dtype=np.bool_)
+    hollow = np.flatnonzero(is_csg[bodies.items[rows]] & (within > 0.0))
+    if len(hollow):
+        box = rows[hollow]
+        outward = placement.attachment_directions[owners[hollow]]
+        place, way = (
+            np.einsum("kij,ki->kj", bodies.rotations[box], vector)
+            for vector in (away[hollow], outward)
+        )
+        steps = (bodies.halves[box] - place * np.sign(way)) / np.maximum(np.abs(way), 1e-9)
+        depths[hollow] = steps.min(axis=1)
     deepest = np.zeros(len(radii))
     np.maximum.at(deepest, owners, depths)
     return np.asarray(radii + deepest)
@@ -54,14 +68,14 @@ def beyond_own_balls(
     and a little more, and the number of each one's curve (q,), ascending.
     """
     counts = np.diff(placement.attachment_starts)
-    items = int(placement.attachment_items.max(initial=0)) + 1
-    owners = np.repeat(np.arange(len(counts)), counts)
-    keys = owners * items + placement.attachment_items
+    rows, items = with_parts(placement.attachment_items, placement)
+    count = int(items.max(initial=0)) + 1
+    keys = np.repeat(np.arange(len(counts)), counts)[rows] * count + items
     order = np.argsort(keys, kind="stable")
-    wanted = named[:, 0] * items + named[:, 1]
+    wanted = named[:, 0] * count + named[:, 1]
     firsts = np.searchsorted(keys[order], wanted, side="left")
     balls_of_each = np.searchsorted(keys[order], wanted, side="right") - firsts
-    balls = order[rows_from(firsts, balls_of_each)]
+    balls = rows[order[rows_from(firsts, balls_of_each)]]
     return _cut(
         control_points,
         placement.attachment_positions[balls],

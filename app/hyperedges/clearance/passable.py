@@ -1,4 +1,4 @@
-"""Which items a hyperedge may pass or touch: those that it attaches to, and what contains these."""
+"""Which items a hyperedge may touch or pass: its own, their parts, and what contains them."""
 
 from __future__ import annotations
 
@@ -6,19 +6,60 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Indices
+from app.grouped import rows_from
 from app.placement.placement import Placement
+from app.solids.solid import Tray
+
+MOST_PARTS = 32
+"""A block that holds more is rather a container, and what it holds are no parts of it."""
+
+
+def with_parts(items: Indices, placement: Placement) -> tuple[Indices, Indices]:
+    """The ``items`` (a,) and their parts: which of the items (m,), and the item or part (m,).
+
+    Parts are what a block or any other item but a tray holds, at any depth, such as small blocks
+    that stand for its ports.
+    """
+    numbers = np.arange(len(items))
+    wholes, parts = _parts(placement)
+    firsts = np.searchsorted(wholes, items, side="left")
+    counts = np.searchsorted(wholes, items, side="right") - firsts
+    rows = np.concatenate([numbers, np.repeat(numbers, counts)])
+    return rows, np.concatenate([items, parts[rows_from(firsts, counts)]])
+
+
+def _parts(placement: Placement) -> tuple[Indices, Indices]:
+    """Items that have parts, ascending, and the parts, (k,) each."""
+    parents = placement.parents
+    found = [np.zeros((0, 2), dtype=np.int64)]
+    below = np.arange(len(parents))
+    above = parents
+    while len(above):
+        below, above = below[above >= 0], above[above >= 0]
+        found.append(np.stack([above, below], axis=1))
+        above = parents[above]
+    wholes, parts = np.concatenate(found).T
+    is_tray = np.array([isinstance(solid, Tray) for solid in placement.solids], dtype=np.bool_)
+    few = np.bincount(wholes, minlength=len(is_tray)) <= MOST_PARTS
+    kept = few[wholes] & ~is_tray[wholes]
+    wholes, parts = wholes[kept], parts[kept]
+    order = np.lexsort((parts, wholes))
+    return wholes[order], parts[order]
 
 
 def attached_items(placement: Placement) -> Indices:
-    """Which hyperedge attaches to which item: pairs (k, 2), each once, sorted."""
+    """Which hyperedge attaches to which item, or to what it is a part of: pairs (k, 2), sorted."""
     starts = placement.attachment_starts
     hyperedges = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-    return _sorted_once(hyperedges, placement.attachment_items)
+    rows, items = with_parts(placement.attachment_items, placement)
+    return _sorted_once(hyperedges[rows], items)
 
 
 def containing_items(placement: Placement) -> Indices:
     """Which item contains one that a hyperedge attaches to, at any depth: pairs (k, 2), sorted."""
-    hyperedges, items = attached_items(placement).T
+    starts = placement.attachment_starts
+    hyperedges = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    hyperedges, items = _sorted_once(hyperedges, placement.attachment_items).T
     found = [np.zeros((0, 2), dtype=np.int64)]
     while len(items) and len(placement.parents):
         items = placement.parents[items]

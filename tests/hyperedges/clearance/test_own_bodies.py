@@ -14,7 +14,8 @@ from app.hyperedges.clearance.certificate import certify
 from app.hyperedges.clearance.obstacles import obstacles_of
 from app.hyperedges.clearance.own_bodies import LEAVING, beyond_own_balls, leaving_radii
 from app.placement.placement import Placement
-from app.solids.solid import Box, Cylinder, Solid, Sphere, Tray
+from app.solids.csg_tree import Leaf
+from app.solids.solid import Box, Csg, Cylinder, Solid, Sphere, Tray
 from tests.hyperedges.clearance.curves import CASES, points_at
 from tests.hyperedges.clearance.furniture import furnished, routed
 from tests.hyperedges.clearance.test_obstacles import beyond
@@ -53,6 +54,13 @@ def test_from_the_middle_of_a_ball_every_way_leads_out() -> None:
     scene = attached_at(SOLIDS[1], np.zeros((2, 3)))
     radii = leaving_radii(scene, obstacles_of(scene).bodies, CLEARANCE)
     np.testing.assert_allclose(radii, BALL + 0.8)
+
+
+def test_from_the_middle_of_what_may_be_hollow_it_is_the_way_out_along_the_direction() -> None:
+    bowl = Csg(Leaf("sphere", (1.0,)), (2.0, 2.0, 2.0), (0.0, 0.0, 0.0), (0.0, 0.0, -0.8))
+    scene = attached_at(bowl, np.array([[0, 0, -0.8], [0.9, 0, 0]], dtype=np.float64))
+    radii = leaving_radii(scene, obstacles_of(scene).bodies, CLEARANCE)
+    np.testing.assert_allclose(radii, [BALL + 1.8, BALL + 1.0])
 
 
 coordinates = st.floats(-2.0, 2.0)

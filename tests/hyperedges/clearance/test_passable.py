@@ -5,12 +5,14 @@ from dataclasses import replace
 import numpy as np
 
 from app.hyperedges.clearance.passable import (
+    MOST_PARTS,
     are_among,
     attached_items,
     containing_items,
     passable_items,
+    with_parts,
 )
-from app.solids.solid import Box
+from app.solids.solid import Box, Tray
 from tests.hyperedges.clearance.furniture import furnished
 
 CUBE = Box((1.0, 1.0, 1.0), 0.05)
@@ -30,6 +32,25 @@ def test_containing_items_are_all_above() -> None:
         *([1, item] for item in (0, 4)),
         *([2, item] for item in range(4)),
     ]
+
+
+def test_parts_are_what_an_item_that_is_no_tray_holds() -> None:
+    tray = Tray((9.0, 9.0, 1.0), 0.2, 0.2)
+    scene = furnished([tray, CUBE, CUBE, CUBE], np.zeros((4, 3)), attachments=[[0, 1], [3, 0]])
+    contained = replace(scene, parents=np.array([-1, 0, 1, 2]))
+    rows, items = with_parts(np.array([1, 0, 3]), contained)
+    assert sorted(zip(rows.tolist(), items.tolist(), strict=True)) == [
+        *[(0, 1), (0, 2), (0, 3)],
+        *[(1, 0), (2, 3)],
+    ]
+    assert attached_items(contained).tolist() == [[0, 0], [0, 1], [0, 2], [0, 3], [1, 0], [1, 3]]
+
+
+def test_what_holds_very_many_has_no_parts() -> None:
+    count = MOST_PARTS + 2
+    scene = furnished([CUBE] * count, np.zeros((count, 3)), attachments=[[0, 1]])
+    contained = replace(scene, parents=np.array([-1, *[0] * (count - 1)]))
+    assert attached_items(contained).tolist() == [[0, 0], [0, 1]]
 
 
 def test_without_parents_nothing_contains_anything() -> None:
