@@ -16,6 +16,7 @@ from app.solids.solid import Box, Tray
 from tests.hyperedges.clearance.furniture import furnished
 
 CUBE = Box((1.0, 1.0, 1.0), 0.05)
+TRAY = Tray((9.0, 9.0, 1.0), 0.2, 0.2)
 
 
 def test_attached_items_are_named_once() -> None:
@@ -24,7 +25,7 @@ def test_attached_items_are_named_once() -> None:
 
 
 def test_containing_items_are_all_above() -> None:
-    scene = furnished([CUBE] * 5, np.zeros((5, 3)), attachments=[[3, 4], [0, 4], [3, 2]])
+    scene = furnished([TRAY] * 5, np.zeros((5, 3)), attachments=[[3, 4], [0, 4], [3, 2]])
     contained = replace(scene, parents=np.array([-1, 0, 1, 2, -1]))
     assert containing_items(contained).tolist() == [[0, 0], [0, 1], [0, 2], [2, 0], [2, 1], [2, 2]]
     assert passable_items(contained).tolist() == [
@@ -35,8 +36,7 @@ def test_containing_items_are_all_above() -> None:
 
 
 def test_parts_are_what_an_item_that_is_no_tray_holds() -> None:
-    tray = Tray((9.0, 9.0, 1.0), 0.2, 0.2)
-    scene = furnished([tray, CUBE, CUBE, CUBE], np.zeros((4, 3)), attachments=[[0, 1], [3, 0]])
+    scene = furnished([TRAY, CUBE, CUBE, CUBE], np.zeros((4, 3)), attachments=[[0, 1], [3, 0]])
     contained = replace(scene, parents=np.array([-1, 0, 1, 2]))
     rows, items = with_parts(np.array([1, 0, 3]), contained)
     assert sorted(zip(rows.tolist(), items.tolist(), strict=True)) == [
