@@ -45,11 +45,16 @@ class Stretch:
     share: float = 1.0
 
 
+LayoutWishes: TypeAlias = tuple[tuple[str, float | str | None], ...]
+"""What is asked of a posted document's ``layout`` beside what it says itself, key by key."""
+
+
 @dataclass(frozen=True, slots=True)
 class RenderOptions:
     """What belongs to one picture alone: its format, and its size in pixels.
 
-    ``source`` is the format of the document. The size also gives a glTF camera its aspect. A print
+    ``source`` is the format of the document, ``wishes`` go before what it says of its layout. The
+    size also gives a glTF camera its aspect. A print
     shows ``parts`` of the scene, ``scale`` millimetres to a unit of the document. glTF is written
     with ``compress``, and with hyperedges merged or not (``None``: if there are very many).
 
@@ -77,6 +82,7 @@ class RenderOptions:
     sweep: tuple[str, ...] = ()
     delta: Delta | None = None
     stretch: Stretch | None = None
+    wishes: LayoutWishes = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,10 +94,11 @@ class JoinOptions:
 
 @dataclass(frozen=True, slots=True)
 class LayoutOptions:
-    """Whether the numbers come with patch pairs, and the format of the document."""
+    """Whether the numbers come with patch pairs, and the document's format and wishes."""
 
     patches: bool = False
     source: str = "tubeloom"
+    wishes: LayoutWishes = ()
 
 
 @dataclass(frozen=True, slots=True)

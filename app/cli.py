@@ -13,9 +13,16 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import click
 
 from app import __version__
-from app.answers import Answer, ConvertOptions, LayoutOptions, Options, RenderOptions
+from app.answers import (
+    Answer,
+    ConvertOptions,
+    LayoutOptions,
+    LayoutWishes,
+    Options,
+    RenderOptions,
+)
 from app.cli_keys import keys
-from app.cli_options import of_gltf, of_motion, of_pictures, of_prints
+from app.cli_options import of_gltf, of_layout, of_motion, of_pictures, of_prints
 from app.errors import DocumentError, TubeloomError
 from app.formats.registry import FORMATS
 from app.output.media import SceneFormat
@@ -118,6 +125,7 @@ def _serve(settings: Settings, processes: list[Launched]) -> None:
 @click.option("--format", "format_", type=SCENE, help="Left out, the ending of the output tells.")
 @click.option("--width", type=click.IntRange(1, 8192), default=1024, show_default=True)
 @click.option("--height", type=click.IntRange(1, 8192), default=768, show_default=True)
+@of_layout
 @of_pictures
 @of_motion
 @of_gltf
@@ -129,6 +137,7 @@ def render(
     source: str,
     format_: str | None,
     effort: Effort,
+    layout: LayoutWishes,
     **wishes: Any,
 ) -> None:
     """Show FILE as a glTF scene, a picture or a film, or make a print of it."""
@@ -138,7 +147,9 @@ def render(
             f"Say the format by --format, or by an output that ends in one of "
             f"{', '.join(f'.{choice}' for choice in SCENE.choices)}."
         )
-    options = RenderOptions(SceneFormat(ending), source=source, effort=effort, **wishes)
+    options = RenderOptions(
+        SceneFormat(ending), source=source, effort=effort, wishes=layout, **wishes
+    )
     if (options.sheet or options.sweep) and options.format is not SceneFormat.PNG:
         raise click.UsageError("Sheets and sweeps are pictures: png.")
     answer = _answer(document, options)
@@ -152,10 +163,13 @@ def render(
 @document
 @to_file
 @source
+@of_layout
 @click.option("--patches", is_flag=True, help="Add the paper's patch pairs.")
-def layout(document: BinaryIO, output: Path, source: str, patches: bool) -> None:
+def layout(
+    *, document: BinaryIO, output: Path, source: str, patches: bool, layout: LayoutWishes
+) -> None:
     """Write where FILE's items stand and how its hyperedges run, as JSON."""
-    _write(output, _answer(document, LayoutOptions(patches, source)))
+    _write(output, _answer(document, LayoutOptions(patches, source, layout)))
 
 
 @main.command()

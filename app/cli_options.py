@@ -10,6 +10,7 @@ import click
 
 from app.output.effort import Effort
 from app.output.media import Compression, Motion, Parts, Quality
+from app.program.model import Routing
 
 Command = Callable[..., None]
 Decorator = Callable[[Command], Command]
@@ -19,6 +20,17 @@ def _group(*options: Decorator) -> Decorator:
     return lambda command: functools.reduce(
         lambda decorated, option: option(decorated), reversed(options), command
     )
+
+
+def _with_layout_wishes(command: Command) -> Command:
+    """Hands over what is asked of the layout in one piece."""
+
+    @functools.wraps(command)
+    def run(*, routing: str | None, clearance: float | None, **others: Any) -> None:
+        asked = (("routing", routing), ("clearance", clearance))
+        command(layout=tuple(each for each in asked if each[1] is not None), **others)
+
+    return run
 
 
 def _with_effort(command: Command) -> Command:
@@ -70,6 +82,20 @@ of_pictures = _group(
         help="As PNG: variations beside each other, such as /style/halo=0,0.3; once or twice.",
     ),
     _with_effort,
+)
+
+of_layout = _group(
+    click.option(
+        "--routing",
+        type=click.Choice(get_args(Routing)),
+        help="How hyperedges keep clear of each other, whatever FILE says.",
+    ),
+    click.option(
+        "--clearance",
+        type=click.FloatRange(0, 1e5),
+        help="Wanted between tubes and from items, whatever FILE says.",
+    ),
+    _with_layout_wishes,
 )
 
 of_motion = _group(

@@ -111,7 +111,11 @@ def render(
     with collection_paused():
         progress("reading", 0.0)
         recent = recent_layouts.get(data, layout)
-        program = recent.program if recent else registry.read(options.source, data, settings)
+        program = (
+            recent.program
+            if recent
+            else registry.read(options.source, data, settings, options.wishes)
+        )
         etag = validator(_form(program, data, layout), replace(options, stretch=None), layout)
         if is_known(etag, known):
             return Unchanged(etag)
@@ -222,7 +226,7 @@ def layout_of(
 ) -> Answer | Unchanged:
     """The numbers of the document's layout, as JSON."""
     progress("reading", 0.0)
-    program = registry.read(options.source, data, settings)
+    program = registry.read(options.source, data, settings, options.wishes)
     etag = validator(_form(program, data, layout), options, layout)
     if is_known(etag, known):
         return Unchanged(etag)

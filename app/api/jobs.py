@@ -81,10 +81,12 @@ async def start_job(request: Request, query: Annotated[JobQuery, QueryParameters
             raise ContradictionError("A posted document has no revision; name a program.")
         settings: Settings = request.app.state.settings
         document = await read_document(request, settings.max_body_bytes)
-        options = render_options(query, wanted, source_of(request, query))
+        options = render_options(query, wanted, source_of(request, query), query.wishes)
         return await start(request, document, options, body=document)
     if query.source not in {None, "tubeloom"} or await has_body(request):
         raise ContradictionError("Send a document, or name a stored program, not both.")
+    if query.wishes:
+        raise ContradictionError("A stored program is laid out already; change it instead.")
     guard.require(request, Scope.READ)
     content = await content_of(request, query.program, query.revision)
     options = render_options(query, wanted, "tubeloom")

@@ -253,13 +253,18 @@ def _errors(error: Exception) -> Sequence[Mapping[str, str]]:
         case RequestValidationError():
             return [
                 {
-                    "parameter": str(fault["loc"][-1])[:LONGEST_KEY],
+                    "parameter": _parameter(fault["loc"])[:LONGEST_KEY],
                     "detail": _parameter_detail(fault),
                 }
                 for fault in error.errors()[:MOST_FAULTS]
             ]
         case _:
             return []
+
+
+def _parameter(place: Sequence[str | int]) -> str:
+    """Its name: of a path the last part, of a query the first, which parts of its type may follow."""
+    return str(place[1] if place[0] == "query" and len(place) > 1 else place[-1])
 
 
 def _parameter_detail(fault: Mapping[str, Any]) -> str:

@@ -46,7 +46,7 @@ async def render(request: Request, query: Annotated[RenderQuery, QueryParameters
     """
     accept = request.headers.get("accept")
     wanted = scene_format(query, without(MEDIA_TYPE, accept))
-    options = render_options(query, wanted, source_of(request, query))
+    options = render_options(query, wanted, source_of(request, query), query.wishes)
     if names(MEDIA_TYPE, accept):
         document = await read_document(request, request.app.state.settings.max_body_bytes)
         answering: Answering = request.app.state.answering
@@ -63,7 +63,8 @@ async def render(request: Request, query: Annotated[RenderQuery, QueryParameters
 async def layout(request: Request, query: Annotated[LayoutQuery, QueryParameters()]) -> Response:
     """The numbers: where items stand, and the control points of every hyperedge's curves."""
     ending = choose(request.headers.get("accept"), NUMBERS)
-    return await _answer(request, LayoutOptions(query.patches, source_of(request, query)), ending)
+    options = LayoutOptions(query.patches, source_of(request, query), query.wishes)
+    return await _answer(request, options, ending)
 
 
 @router.post("/convert", **describe("convert"))

@@ -8,8 +8,10 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
+from app.answers import LayoutWishes
 from app.formats.registry import FORMATS
 from app.output.media import Compression, Motion, Parts, Quality, SceneFormat
+from app.program.model import Clearance, Routing
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +53,28 @@ class PostedQuery(Query):
         alias="from",
         description="Format of the posted document; left out, its media type tells.",
     )
+
+
+class LaidOutQuery(PostedQuery):
+    """What may be asked of the layout of a posted document, whatever its format can say of it."""
+
+    routing: Routing | None = Field(
+        None, description="As `layout.routing` of a document, before which it goes."
+    )
+    clearance: Clearance | Literal["none"] | None = Field(
+        None,
+        description="As `layout.clearance` of a document, before which it goes; `none`: its null.",
+    )
+
+    @property
+    def wishes(self) -> LayoutWishes:
+        """What is asked, by the document's keys."""
+        asked: list[tuple[str, float | str | None]] = []
+        if self.routing is not None:
+            asked.append(("routing", self.routing))
+        if self.clearance is not None:
+            asked.append(("clearance", None if self.clearance == "none" else self.clearance))
+        return tuple(asked)
 
 
 class SceneQuery(Query):
@@ -121,7 +145,7 @@ class SceneQuery(Query):
     )
 
 
-class RenderQuery(SceneQuery, PostedQuery):
+class RenderQuery(SceneQuery, LaidOutQuery):
     """What may be asked of the scene of a posted document."""
 
 
@@ -133,7 +157,7 @@ class NumbersQuery(Query):
     )
 
 
-class LayoutQuery(NumbersQuery, PostedQuery):
+class LayoutQuery(NumbersQuery, LaidOutQuery):
     """What may be asked of the layout of a posted document."""
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from app.answers import RenderOptions
+from app.answers import LayoutWishes, RenderOptions
 from app.api.negotiation import choose
 from app.api.problems import ContradictionError
 from app.api.queries import SceneQuery
@@ -25,7 +25,9 @@ def scene_format(query: SceneQuery, accept: str | None) -> SceneFormat:
     return choose(accept, {SceneFormat.PNG.media_type: SceneFormat.PNG})
 
 
-def render_options(query: SceneQuery, wanted: SceneFormat, source: str) -> RenderOptions:
+def render_options(
+    query: SceneQuery, wanted: SceneFormat, source: str, wishes: LayoutWishes = ()
+) -> RenderOptions:
     """What the pipeline is asked; ``source`` is the format of the document."""
     return RenderOptions(
         format=wanted,
@@ -43,4 +45,5 @@ def render_options(query: SceneQuery, wanted: SceneFormat, source: str) -> Rende
         seconds=query.duration,
         sheet=query.sheet,
         sweep=tuple(query.sweep),
+        wishes=wishes,
     )

@@ -5,7 +5,7 @@ What reads and writes them is imported when it is first used: the service knows 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeAlias
@@ -104,14 +104,23 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
 )
 
 
-def read(name: str, data: bytes, settings: Settings) -> Program:
+def read(
+    name: str, data: bytes, settings: Settings, wishes: Sequence[tuple[str, object]] = ()
+) -> Program:
     """The program in ``data``, a document of the format ``name``.
 
-    Raises `UnknownName`, and `DocumentError` with every fault found in the document.
+    ``wishes`` go before what the document says of its layout, key by key. Raises `UnknownName`, and
+    `DocumentError` with every fault found in the document.
     """
     if name not in FORMATS:
         raise UnknownName("format", name, tuple(FORMATS))
-    return FORMATS[name].reader(data, settings)
+    program = FORMATS[name].reader(data, settings)
+    if not wishes:
+        return program
+    from app.program.model import Layout
+
+    layout = Layout.model_validate(program.layout.model_dump() | dict(wishes))
+    return program.model_copy(update={"layout": layout})
 
 
 def write(name: str, program: Program) -> bytes:

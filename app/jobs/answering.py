@@ -16,7 +16,7 @@ from typing import Self
 import structlog
 
 from app import __version__
-from app.answers import Answer, Options, RenderOptions, Unchanged, is_known
+from app.answers import Answer, LayoutOptions, Options, RenderOptions, Unchanged, is_known
 from app.errors import StoreUnavailable
 from app.jobs.executor import Finished, WorkerPool
 from app.jobs.flights import Flights
@@ -82,7 +82,8 @@ class Answering:
     def _keys(self, document: bytes, options: Options, layout: bytes | None) -> tuple[str, str]:
         """Of the answer, and of the document's layout, which other answers have in common."""
         of_layout = self._root.copy()
-        of_layout.update(f"{getattr(options, 'source', '')}\nlayout\n".encode())
+        if isinstance(options, RenderOptions | LayoutOptions):
+            of_layout.update(f"{options.source}\n{options.wishes}\nlayout\n".encode())
         of_layout.update(document)
         return self.key(document, options, layout), of_layout.hexdigest()
 

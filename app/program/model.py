@@ -11,6 +11,8 @@ from app.program.shapes import Shape
 
 Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 MaterialName = Literal["plastic", "metal", "glass", "wood", "stone", "matte", "plain"]
+Routing = Literal["planes", "elastic", "auto"]
+Clearance = Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)]
 Finish = Literal["shiny", "satin", "matte"]
 
 TRANSLUCENCY = "Share of light that passes; left out, the material's own."
@@ -137,14 +139,11 @@ class Layout(Part):
     patch_rule: Literal["paper", "fitted"] = Field(
         "paper", description="Where patch control points go: by the paper, or fitted to the tube."
     )
-    clearance: float | None = Field(
+    clearance: Clearance | None = Field(
         0.05,
-        ge=0,
-        le=1e5,
-        allow_inf_nan=False,
         description="Wanted between tubes' surfaces, and from items; null: do not look.",
     )
-    routing: Literal["planes", "elastic", "auto"] = Field(
+    routing: Routing = Field(
         "planes",
         description="How 'steiner' curves keep clear of each other. 'planes': each hyperedge has a "
         "height of its own. 'elastic': they are relaxed as elastic chains that push each other "

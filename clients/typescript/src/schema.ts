@@ -555,7 +555,7 @@ export interface components {
             item: string;
             /**
              * Point
-             * @description Left out: the middle of the item's top face.
+             * @description Left out: the middle of the item's top face. Hyperedges that would end at the same place get places side by side.
              * @default null
              */
             point?: string | null;
@@ -708,7 +708,7 @@ export interface components {
         };
         /**
          * Contact
-         * @description The nearest place of two hyperedges, or of one and an item that it does not attach to.
+         * @description The nearest place of two hyperedges, or of one and an item.
          */
         Contact: {
             /** Hyperedges */
@@ -1103,14 +1103,14 @@ export interface components {
         };
         /**
          * Draft
-         * @description Whether draft pictures can be drawn here.
+         * @description Whether draft pictures can be drawn here: whether the last one that was asked for came.
          */
         Draft: {
             /** Available */
             available: boolean;
             /**
              * Problem
-             * @description What is missing, and how to install it.
+             * @description Why they do not come, and what to install.
              */
             problem: string | null;
         };
@@ -1700,6 +1700,13 @@ export interface components {
              */
             clearance?: number | null;
             /**
+             * Routing
+             * @description How 'steiner' curves keep clear of each other. 'planes': each hyperedge has a height of its own. 'elastic': they are relaxed as elastic chains that push each other apart. 'auto': elastic where that is proven clear, else whichever has fewer faults.
+             * @default planes
+             * @enum {string}
+             */
+            routing?: "planes" | "elastic" | "auto";
+            /**
              * Constraints
              * @default []
              */
@@ -1714,6 +1721,11 @@ export interface components {
             items: components["schemas"]["PlacedItem"][];
             /** Hyperedges */
             hyperedges: components["schemas"]["RoutedHyperedge"][];
+            /**
+             * Overlaps
+             * @description At most 1,000, sorted as the items are.
+             */
+            overlaps: components["schemas"]["Overlap"][];
             /** @description Null where layout.clearance is null. */
             clearance: components["schemas"]["Clearance"] | null;
         };
@@ -1925,6 +1937,22 @@ export interface components {
              *     }
              */
             other_hyperedges?: components["schemas"]["HyperedgeStyle"];
+        };
+        /**
+         * Overlap
+         * @description Two items that stand in each other, neither of which contains the other.
+         */
+        Overlap: {
+            /** Items */
+            items: [
+                string,
+                string
+            ];
+            /**
+             * Depth
+             * @description How far one has to move for their boxes to part.
+             */
+            depth: number;
         };
         /**
          * OwnContact
@@ -2288,6 +2316,7 @@ export interface components {
              *       "tube": "swept",
              *       "patch_rule": "paper",
              *       "clearance": 0.05,
+             *       "routing": "planes",
              *       "constraints": []
              *     }
              */
@@ -2916,6 +2945,10 @@ export interface operations {
             query?: {
                 /** @description Format of the posted document; left out, its media type tells. */
                 from?: ("tubeloom" | "yosys" | "hif") | null;
+                /** @description As `layout.routing` of a document, before which it goes. */
+                routing?: ("planes" | "elastic" | "auto") | null;
+                /** @description As `layout.clearance` of a document, before which it goes; `none`: its null. */
+                clearance?: number | "none" | null;
                 /** @description Format of the answer. It wins over `Accept`; without both, `glb`. */
                 format?: components["schemas"]["SceneFormat"] | null;
                 /** @description Of the picture, in pixels; with the height, the aspect of the camera. */
@@ -3278,6 +3311,10 @@ export interface operations {
             query?: {
                 /** @description Format of the posted document; left out, its media type tells. */
                 from?: ("tubeloom" | "yosys" | "hif") | null;
+                /** @description As `layout.routing` of a document, before which it goes. */
+                routing?: ("planes" | "elastic" | "auto") | null;
+                /** @description As `layout.clearance` of a document, before which it goes; `none`: its null. */
+                clearance?: number | "none" | null;
                 /** @description Add the paper's pair of Bezier patches to each segment. */
                 patches?: boolean;
             };
@@ -3873,6 +3910,10 @@ export interface operations {
             query?: {
                 /** @description Format of the posted document; left out, its media type tells. */
                 from?: ("tubeloom" | "yosys" | "hif") | null;
+                /** @description As `layout.routing` of a document, before which it goes. */
+                routing?: ("planes" | "elastic" | "auto") | null;
+                /** @description As `layout.clearance` of a document, before which it goes; `none`: its null. */
+                clearance?: number | "none" | null;
                 /** @description Format of the answer. It wins over `Accept`; without both, `glb`. */
                 format?: components["schemas"]["SceneFormat"] | null;
                 /** @description Of the picture, in pixels; with the height, the aspect of the camera. */
