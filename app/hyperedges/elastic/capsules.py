@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from app.arrays import Floats, Indices
+from app.arrays import Flags, Floats, Indices
 
 TOUCHING = 1e-5
 """Axes nearer than this, in document units, pass through each other."""
@@ -57,6 +57,23 @@ def separate(
         _add(sums, weights, b, wb, push, u, v, w)
         _add(sums, weights, c, wc, -push, u, v, w)
         _add(sums, weights, d, wd, -push, u, v, w)
+
+
+@njit(cache=True, error_model="numpy")
+def within(x: Floats, segments: Indices, pairs: Indices, reach: Floats) -> Flags:
+    """Which ``pairs`` (m, 2) of segments are nearer than the sum of their ``reach`` (s,)."""
+    found = np.empty(len(pairs), np.bool_)
+    for row in range(len(pairs)):
+        k, q = pairs[row, 0], pairs[row, 1]
+        a, b, c, d = segments[k, 0], segments[k, 1], segments[q, 0], segments[q, 1]
+        s, t = nearest(x, a, b, c, d)
+        square = 0.0
+        for axis in range(3):
+            way = x[a, axis] + s * (x[b, axis] - x[a, axis])
+            way -= x[c, axis] + t * (x[d, axis] - x[c, axis])
+            square += way * way
+        found[row] = square < (reach[k] + reach[q]) ** 2
+    return found
 
 
 @njit(cache=True, error_model="numpy", inline="always")

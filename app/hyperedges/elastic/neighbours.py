@@ -13,6 +13,7 @@ import numpy as np
 from app.arrays import Flags, Floats, Indices
 from app.hyperedges.clearance.box_tree import Tree, meeting, plant
 from app.hyperedges.elastic.beads import SPACING, Beads
+from app.hyperedges.elastic.capsules import within
 from app.hyperedges.elastic.chains import Chains
 from app.hyperedges.elastic.relaxation import Near
 from app.hyperedges.elastic.rounded_boxes import Boxes
@@ -74,15 +75,16 @@ def find_near(
     """
     ends = x[beads.segments]
     around = np.zeros((len(ends), 8))
-    margins = (rooms * size + WIDER * beads.radii + 0.5 * skin)[:, None]
-    around[:, :3] = ends.min(axis=1) - margins
-    around[:, 4:7] = ends.max(axis=1) + margins
+    reach = rooms * size + WIDER * beads.radii + 0.5 * skin
+    around[:, :3] = np.minimum(ends[:, 0], ends[:, 1]) - reach[:, None]
+    around[:, 4:7] = np.maximum(ends[:, 0], ends[:, 1]) + reach[:, None]
     asked = moving[beads.segments[:, 0]] | moving[beads.segments[:, 1]]
     pairs = np.zeros((0, 2), dtype=np.int64)
     if len(ends) and asked.any():
         tree = plant(around)
         asking = tree.order[asked[tree.order]]
         pairs = meeting(tree, around, asking, (beads.chains, beads.chains), asked)
+        pairs = pairs[within(x, beads.segments, pairs, reach)]
         pairs = pairs[~_beside_a_join(pairs, beads)]
     near, exempt = _near_items(x, around, beads, chains, items, clearance, asked)
     apart, distances = _apart(chains, stretch)

@@ -24,13 +24,13 @@ THIN, HALF_GROWN = 0.25, 0.7
 Thin ones slip past each other early, and grow apart late.
 """
 
-STEPS = 100
+STEPS = 80
 """Of each stage of growth, and of settling after it."""
 
-GROWN = 70
+GROWN = 60
 """Steps of the second stage after which tubes have their size."""
 
-SOFT, STIFF = 80, 30
+SOFT, STIFF = 60, 30
 """Steps that bend chains evenly, and that only push and smooth."""
 
 

@@ -16,8 +16,13 @@ from app.hyperedges.elastic.neighbours import Items, find_near
 from app.hyperedges.elastic.polylines import Polylines
 from app.hyperedges.elastic.relaxation import Rates, relax
 
-SKIN = 3.0
-"""How far apart neighbours may be, beyond what they need, over the largest radius."""
+SKINS = (1.2, 2.4)
+"""How far apart neighbours may be, beyond what they need, over the largest radius.
+
+Little where lists of neighbours last for more than `LONG` steps, more where for less than `BRIEF`.
+"""
+
+BRIEF, LONG = 5, 16
 
 TIGHTEST = 2.0
 """Radius of curvature, over the tube's, below which chains are opened."""
@@ -139,7 +144,8 @@ def run(
     if not may.any():
         return
     rooms = (beads.radii + 0.5 * around.clearance) * (1.0 + (slack - 1.0) * state.slack)
-    skin = SKIN * float(beads.radii.max())
+    radius = float(beads.radii.max())
+    skin = SKINS[1] * radius
     movers = np.flatnonzero(may)
     beside = may.copy()
     linked = beads.links[movers]
@@ -153,7 +159,7 @@ def run(
         near = find_near(
             x, beads, chains, around.items, rooms, state.stretch, around.clearance, may, size, skin
         )
-        step = relax(
+        begun, step = step, relax(
             x,
             beads.links,
             beads.degrees,
@@ -177,3 +183,7 @@ def run(
             min(step + at_once, steps),
             skin,
         )
+        if step - begun > LONG:
+            skin = max(skin / 1.4, SKINS[0] * radius)
+        elif step - begun < BRIEF:
+            skin = min(skin * 1.4, SKINS[1] * radius)

@@ -15,7 +15,7 @@ from app.placement.placement import Placement
 UPWARDS = 0.7
 """Height of a unit direction from which on an attachment points upwards."""
 
-RISE = 0.2
+RISE = 0.18
 """Height of an arch over its span."""
 
 PIECES = 16
