@@ -67,26 +67,31 @@ def find_near(
     moving: Flags,
     size: float,
     skin: float,
+    among: Indices | None = None,
 ) -> Near:
     """What may come too near to what moves, until a bead has gone half of ``skin``.
 
     ``rooms`` (s,) and ``size`` as for `app.hyperedges.elastic.relaxation.relax`; ``stretch`` (c,)
-    as for `app.hyperedges.elastic.run.State`; ``moving`` (b,).
+    as for `app.hyperedges.elastic.run.State`; ``moving`` (b,). Only the segments
+    ``among`` (k,), ascending, count, if they are given.
     """
-    ends = x[beads.segments]
-    around = np.zeros((len(ends), 8))
+    some = np.arange(len(beads.segments)) if among is None else among
+    segments, of = beads.segments[some], beads.chains[some]
+    around = np.zeros((len(some), 8))
     reach = rooms * size + WIDER * beads.radii + 0.5 * skin
-    around[:, :3] = np.minimum(ends[:, 0], ends[:, 1]) - reach[:, None]
-    around[:, 4:7] = np.maximum(ends[:, 0], ends[:, 1]) + reach[:, None]
-    asked = moving[beads.segments[:, 0]] | moving[beads.segments[:, 1]]
+    one, other, margin = x[segments[:, 0]], x[segments[:, 1]], reach[some][:, None]
+    around[:, :3] = np.minimum(one, other) - margin
+    around[:, 4:7] = np.maximum(one, other) + margin
+    asked = moving[segments[:, 0]] | moving[segments[:, 1]]
     pairs = np.zeros((0, 2), dtype=np.int64)
-    if len(ends) and asked.any():
+    if asked.any():
         tree = plant(around)
         asking = tree.order[asked[tree.order]]
-        pairs = meeting(tree, around, asking, (beads.chains, beads.chains), asked)
+        pairs = some[meeting(tree, around, asking, (of, of), asked)]
         pairs = pairs[within(x, beads.segments, pairs, reach)]
         pairs = pairs[~_beside_a_join(pairs, beads)]
-    near, exempt = _near_items(x, around, beads, chains, items, clearance, asked)
+    rows = np.flatnonzero(asked)
+    near, exempt = _near_items(x, around[rows], some[rows], beads, chains, items, clearance)
     apart, distances = _apart(chains, stretch)
     return Near(pairs, near, exempt, apart, distances)
 
@@ -110,20 +115,23 @@ def _beside_a_join(pairs: Indices, beads: Beads) -> Flags:
 def _near_items(
     x: Floats,
     around: Floats,
+    asking: Indices,
     beads: Beads,
     chains: Chains,
     items: Items,
     clearance: float,
-    asked: Flags,
 ) -> tuple[Indices, Floats]:
-    """Pairs (n, 2) of a segment and a box, and where the box does not count, (n, 4)."""
-    if items.tree is None or not asked.any():
+    """Pairs (n, 2) of a segment and a box, and where the box does not count, (n, 4).
+
+    For the segments ``asking`` (k,), in boxes ``around`` (k, 8).
+    """
+    if items.tree is None or len(asking) == 0:
         return np.zeros((0, 2), dtype=np.int64), np.zeros((0, 4))
-    wider = around.copy()
-    wider[:, :3] -= 0.5 * clearance
-    wider[:, 4:7] += 0.5 * clearance
-    strangers = np.full(len(items.owners), -1)
-    near = meeting(items.tree, wider, np.flatnonzero(asked), (beads.owners, strangers))
+    around[:, :3] -= 0.5 * clearance
+    around[:, 4:7] += 0.5 * clearance
+    numbers, strangers = np.arange(len(asking)), np.full(len(items.owners), -1)
+    near = meeting(items.tree, around, numbers, (numbers, strangers))
+    near[:, 0] = asking[near[:, 0]]
     count = int(max(items.owners.max(), chains.items.max(initial=0))) + 1
     keys = beads.owners[near[:, 0]] * count + items.owners[near[:, 1]]
     if len(items.ignored):

@@ -170,7 +170,7 @@ def move(
 ) -> float:
     """Move beads by the mean of their corrections; how far the farthest is from its ``start``.
 
-    Clears ``sums`` (b, 3) and ``weights`` (b,).
+    Clears their ``sums`` (b, 3) and ``weights`` (b,); those of all other beads are 0.
     """
     farthest = 0.0
     for i in moving:
@@ -186,6 +186,6 @@ def move(
         for axis in range(3):
             square += (x[i, axis] - start[i, axis]) ** 2
         farthest = max(farthest, square)
-    sums[:] = 0.0
-    weights[:] = 0.0
+        sums[i] = 0.0
+        weights[i] = 0.0
     return float(np.sqrt(farthest))

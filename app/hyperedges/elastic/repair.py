@@ -9,10 +9,20 @@ import numpy as np
 from app.arrays import Flags, Floats, Indices
 from app.hyperedges.clearance.box_tree import meeting, plant
 from app.hyperedges.elastic.assembly import routing_of
+from app.hyperedges.elastic.beads import SPACING
 from app.hyperedges.elastic.faults import Faults, find_faults
 from app.hyperedges.elastic.fitting import Pieces, fit
 from app.hyperedges.elastic.relaxation import Rates
-from app.hyperedges.elastic.run import ROOMY, TIGHTEST, Progress, State, Surroundings, higher, run
+from app.hyperedges.elastic.run import (
+    ROOMY,
+    TIGHTEST,
+    Part,
+    Progress,
+    State,
+    Surroundings,
+    higher,
+    run,
+)
 from app.hyperedges.routing import Routing
 
 ROUNDS = 30
@@ -31,6 +41,9 @@ LARGE = 2000
 
 NEIGHBOURHOOD = 6.0
 """How near that is, in distances of beads."""
+
+BESIDE = 1.6
+"""So many times as far are the segments that what moves there may come near to."""
 
 STIFF, STILL = Rates(0.05, 0.2), Rates(0.0, 0.05)
 LIFTED = Rates(0.25, 0.2)
@@ -73,7 +86,7 @@ def mend(
         before = state.x.copy()
         wrong = troubled(faults, routing, hyperedges)
         _loosen(state, pieces, faults)
-        near = _near(state, around, faults, routing)
+        near = _near(state, faults, routing)
         if number % LIFTING == LIFTING - 1 and (wrong & state.chains.hung).any():
             state = higher(state, np.where(wrong, HIGHER, 1.0) * state.curvatures)
             run(state, around, LIFTED, 60, 1.2, progress, near)
@@ -200,24 +213,26 @@ def _stretch(state: State, pieces: Pieces, pinched: Indices) -> None:
     state.stretch[rows] = np.minimum(1.25 * state.stretch[rows], MOST_STRETCH)
 
 
-def _near(state: State, around: Surroundings, faults: Faults, routing: Routing) -> Flags | None:
-    """Beads near to what is wrong, (b,); None for all."""
+def _near(state: State, faults: Faults, routing: Routing) -> Part | None:
+    """What is near to what is wrong, and may move; None for all."""
     beads = state.beads
-    count = int(beads.segment_starts[-1])
-    if count <= LARGE:
+    if len(beads.segments) <= LARGE:
         return None
     places = np.concatenate(
         [faults.places, routing.control_points[faults.pinched, 0], faults.own_places]
     )
-    reach = NEIGHBOURHOOD * 4.0 * float(state.chains.radii.max())
+    reach = NEIGHBOURHOOD * SPACING * float(state.chains.radii.max())
     asked = np.zeros((len(places), 8))
-    asked[:, :3], asked[:, 4:7] = places - reach, places + reach
-    ends = state.x[beads.segments[:count]]
-    lines = np.zeros((count, 8))
-    lines[:, :3], lines[:, 4:7] = ends.min(axis=1), ends.max(axis=1)
     numbers = np.arange(len(places))
-    found = meeting(plant(lines), asked, numbers, (numbers, np.full(count, -1)))
-    near = np.zeros(len(state.x), dtype=np.bool_)
-    near[beads.segments[found[:, 1]]] = True
-    del around
-    return near
+    lines = np.zeros((len(beads.segments), 8))
+    one, other = (state.x[beads.segments[:, side]] for side in range(2))
+    lines[:, :3], lines[:, 4:7] = np.minimum(one, other), np.maximum(one, other)
+    tree = plant(lines)
+    found = []
+    for wider in (1.0, BESIDE):
+        asked[:, :3], asked[:, 4:7] = places - wider * reach, places + wider * reach
+        near = meeting(tree, asked, numbers, (numbers, np.full(len(lines), -1)))
+        found.append(np.unique(near[:, 1]))
+    moving = np.zeros(len(state.x), dtype=np.bool_)
+    moving[beads.segments[found[0]]] = True
+    return Part(moving, found[1])

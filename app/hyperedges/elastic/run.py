@@ -74,6 +74,14 @@ class State:
     bends: Floats
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """Beads that are ``moving`` (b,), and the segments ``among`` (k,) which they do so."""
+
+    moving: Flags
+    among: Indices
+
+
 def state_of(chains: Chains, lines: Polylines, fixed: Fixed, curvatures: Floats) -> State:
     """Beads along polylines."""
     beads, x = lay_beads(chains, lines, fixed, curvatures)
@@ -134,13 +142,13 @@ def run(
     steps: int,
     slack: float,
     progress: Progress,
-    moving: Flags | None = None,
+    part: Part | None = None,
 ) -> None:
-    """Take so many steps, in place; of the beads ``moving`` (b,) alone, if that is given."""
+    """Take so many steps, in place; of a ``part`` of the beads alone, if that is given."""
     beads, chains, x = state.beads, state.chains, state.x
     may = beads.free > 0.0
-    if moving is not None:
-        may &= moving
+    if part is not None:
+        may &= part.moving
     if not may.any():
         return
     rooms = (beads.radii + 0.5 * around.clearance) * (1.0 + (slack - 1.0) * state.slack)
@@ -157,31 +165,44 @@ def run(
         progress()
         size = max(rates.begin, rates.end)
         near = find_near(
-            x, beads, chains, around.items, rooms, state.stretch, around.clearance, may, size, skin
-        )
-        begun, step = step, relax(
             x,
-            beads.links,
-            beads.degrees,
-            state.stems,
-            beads.free * may,
-            beads.thickness,
-            state.bends,
-            beads.spans,
-            beads.lows,
-            beads.highs,
-            beads.lifts,
-            beads.segments,
+            beads,
+            chains,
+            around.items,
             rooms,
-            0.5 * around.clearance,
-            movers,
-            near_movers,
-            near,
-            around.items.boxes,
-            rates,
-            step,
-            min(step + at_once, steps),
+            state.stretch,
+            around.clearance,
+            may,
+            size,
             skin,
+            None if part is None else part.among,
+        )
+        begun, step = (
+            step,
+            relax(
+                x,
+                beads.links,
+                beads.degrees,
+                state.stems,
+                beads.free * may,
+                beads.thickness,
+                state.bends,
+                beads.spans,
+                beads.lows,
+                beads.highs,
+                beads.lifts,
+                beads.segments,
+                rooms,
+                0.5 * around.clearance,
+                movers,
+                near_movers,
+                near,
+                around.items.boxes,
+                rates,
+                step,
+                min(step + at_once, steps),
+                skin,
+            ),
         )
         if step - begun > LONG:
             skin = max(skin / 1.4, SKINS[0] * radius)
