@@ -263,7 +263,7 @@ def _errors(error: Exception) -> Sequence[Mapping[str, str]]:
 
 
 def _parameter(place: Sequence[str | int]) -> str:
-    """Its name: of a path the last part, of a query the first, which parts of its type may follow."""
+    """Its name: in a query the first part, behind which parts of its type may follow."""
     return str(place[1] if place[0] == "query" and len(place) > 1 else place[-1])
 
 
