@@ -42,8 +42,6 @@ def strict(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
         tmp_path_factory.mktemp("strict"),
         hosts="127.0.0.1, tubes.example",
         cors_origins="https://pages.example",
-        upload_seconds=1,
-        head_seconds=1,
         max_held_bytes=1_000_000,
         max_print_triangles=500,
         kept_revisions=3,

@@ -18,11 +18,20 @@ PICTURE = "format=png&quality=final&width=64&height=48&samples=1"
 LONG = "format=png&quality=final&width=320&height=240&samples=65536"
 """A render that takes minutes."""
 
-LASTING: Mapping[str, Any] = {"samples": 65536, "time_limit": 6}
-"""What makes a final picture go on for so many seconds, however quick the machine is."""
+PERIODS = (6, 12, 24, 48)
+"""Seconds that a job goes on for, so that it is disturbed before it is done: where a machine was
+stopped for longer, the next of these is tried."""
 
-WATCHED = "format=png&quality=final&width=96&height=72&samples=65536&time_limit=6"
-"""A small picture that is drawn for so long; no two of it are the same."""
+
+def lasting(seconds: int) -> Mapping[str, Any]:
+    """What makes a final picture go on for so many ``seconds``, however quick the machine is."""
+    return {"samples": 65536, "time_limit": seconds}
+
+
+def watched(seconds: int) -> str:
+    """A small picture that is drawn for so many ``seconds``; no two of it are the same."""
+    return f"format=png&quality=final&width=96&height=72&samples=65536&time_limit={seconds}"
+
 
 DRAWING = 0.6
 """Share of a picture's work that is done when it begins to be drawn."""
@@ -63,6 +72,16 @@ def over(client: httpx.Client, job: str, seconds: float = 90.0) -> dict[str, Any
         return found if found["state"] in OVER else None
 
     return until(look, seconds)
+
+
+def caught(client: httpx.Client, job: str, share: float = DRAWING) -> bool:
+    """Whether so much of its work is done, as soon as it is, and the job is not over yet."""
+
+    def look() -> dict[str, Any] | None:
+        found = state(client, job)
+        return found if found["state"] in OVER or found["share"] >= share else None
+
+    return until(look)["state"] not in OVER
 
 
 def at_work(client: httpx.Client, job: str, share: float = DRAWING) -> dict[str, Any]:

@@ -1,4 +1,5 @@
 import time
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
@@ -7,10 +8,26 @@ import pytest
 
 from app.api.connections import HEAD_BYTES
 from tests.api.raw import connect, exchange, host_of, received, status_of
-from tests.service import PATIENCE_SECONDS, Service
+from tests.service import PATIENCE_SECONDS, Service, running_service, until
 
 SECONDS = 1
-"""That a head, and a body, may take to come to the strict service."""
+"""That a head, and a body, may take to come to the impatient service."""
+
+TRIES = 5
+"""Whoever behaves is also too late where the machine stops the test for so long; but not often."""
+
+
+@pytest.fixture(scope="module")
+def impatient(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service that nobody may keep waiting, not even a test on a busy machine."""
+    with running_service(
+        tmp_path_factory.mktemp("impatient"),
+        warm=False,
+        upload_seconds=SECONDS,
+        head_seconds=SECONDS,
+        max_held_bytes=1_000_000,
+    ) as running:
+        yield running
 
 
 def head(service: Service, size: int) -> bytes:
@@ -40,32 +57,44 @@ def trickle(service: Service, beginning: bytes, part: bytes) -> tuple[float, byt
     pytest.fail("The connection was not closed.")
 
 
+def answer_to_slow_body(service: Service, beginning: bytes, part: bytes) -> bytes:
+    """What is answered to a head that came in time, and a body that does not."""
+    for _ in range(TRIES):
+        if answer := trickle(service, beginning, part)[1]:
+            return answer
+    pytest.fail("Nothing was answered.")
+
+
 def test_a_body_that_comes_too_slowly_is_refused_and_its_connection_closed(
-    strict: Service,
+    impatient: Service,
 ) -> None:
-    _, answer = trickle(strict, head(strict, 1000), b" ")
+    answer = answer_to_slow_body(impatient, head(impatient, 1000), b" ")
     assert status_of(answer) == 408
     assert b"urn:tubeloom:problem:slow-upload" in answer
 
 
-def test_a_job_of_a_stored_program_takes_no_body_however_slow_or_long(strict: Service) -> None:
-    asked = head(strict, 10**9).replace(b"/v1/layout", b"/v1/jobs?program=stored")
-    assert status_of(trickle(strict, asked, b"")[1]) == 408
-    assert status_of(exchange(strict, asked + b"x" * 100_000)) == 422
+def test_a_job_of_a_stored_program_takes_no_body_however_slow_or_long(
+    strict: Service, impatient: Service
+) -> None:
+    def asked(service: Service) -> bytes:
+        return head(service, 10**9).replace(b"/v1/layout", b"/v1/jobs?program=stored")
+
+    assert status_of(answer_to_slow_body(impatient, asked(impatient), b"")) == 408
+    assert status_of(exchange(strict, asked(strict) + b"x" * 100_000)) == 422
 
 
-def test_a_head_that_comes_too_slowly_ends_the_connection(strict: Service) -> None:
+def test_a_head_that_comes_too_slowly_ends_the_connection(impatient: Service) -> None:
     with ThreadPoolExecutor(2) as threads:
-        first = threads.submit(trickle, strict, b"GET /healthz HTTP/1.1\r\n", b"x")
-        silent = threads.submit(trickle, strict, b"", b"")
+        first = threads.submit(trickle, impatient, b"GET /healthz HTTP/1.1\r\n", b"x")
+        silent = threads.submit(trickle, impatient, b"", b"")
         for seconds, answer in (first.result(), silent.result()):
             assert answer == b""
             assert seconds > 0.9 * SECONDS
 
 
-def test_a_connection_is_not_held_by_a_body_that_nobody_reads(strict: Service) -> None:
-    beginning = head(strict, 10**9).replace(b"/v1/layout", b"/nowhere")
-    _, answer = trickle(strict, beginning, b" ")
+def test_a_connection_is_not_held_by_a_body_that_nobody_reads(impatient: Service) -> None:
+    beginning = head(impatient, 10**9).replace(b"/v1/layout", b"/nowhere")
+    answer = answer_to_slow_body(impatient, beginning, b" ")
     assert status_of(answer) == 404
 
 
@@ -75,49 +104,53 @@ def test_a_head_too_large_is_refused(strict: Service) -> None:
     many = b"".join(b"X-%d: %s\r\n" % (number, b"y" * 100) for number in range(10_000))
     assert len(many) > HEAD_BYTES
     with connect(strict) as connection:
-        connection.settimeout(5)
         with suppress(OSError):
             connection.sendall(beginning + many + b"\r\n")
         assert received(connection)[:12] in {b"HTTP/1.1 431", b""}
     assert httpx.get(f"{strict.url}/healthz", timeout=PATIENCE_SECONDS).status_code == 200
 
 
-def test_a_connection_goes_on_for_who_behaves(strict: Service) -> None:
-    with strict.client() as client:
+def test_a_connection_goes_on_for_who_behaves(impatient: Service) -> None:
+    assert any(_goes_on(impatient) for _ in range(TRIES))
+
+
+def _goes_on(service: Service) -> bool:
+    """Whether a connection is good for more requests, also after more than the time for a head."""
+    with service.client() as client, suppress(httpx.TransportError):
+        found = []
         for pause in (0.0, 1.5 * SECONDS):
             time.sleep(pause)
-            assert client.get("/healthz").status_code == 200
+            found.append(client.get("/healthz").status_code)
             body = (b" " for _ in range(5))
-            assert client.post("/v1/layout", content=body).status_code == 400
-
-
-def _refused(client: httpx.Client, body: bytes) -> httpx.Response | None:
-    """The answer that there is no room, as soon as the service has taken what others have sent."""
-    end = time.monotonic() + SECONDS
-    while time.monotonic() < end:
-        answer = client.post("/v1/layout", content=body)
-        if answer.status_code == 503:
-            return answer
-    return None
+            found.append(client.post("/v1/layout", content=body).status_code)
+        return found == [200, 400, 200, 400]
+    return False
 
 
 def test_more_bodies_than_may_be_held_wait_outside(strict: Service) -> None:
-    # A body is held for a second, in which a busy machine may get to nothing.
-    for _ in range(20):
-        with connect(strict) as first, strict.client() as client:
-            first.sendall(head(strict, 950_000) + b" " * 900_000)
-            refused = _refused(client, b" " * 200_000)
-            if refused is None:
-                continue
-            assert refused.json()["type"] == "urn:tubeloom:problem:overloaded"
-            assert refused.headers["retry-after"] == "2"
-            assert client.post("/v1/layout", content=b" " * 50_000).status_code == 400
-            assert status_of(received(first)) == 408
-            # What was held has been given back.
-            assert client.post("/v1/layout", content=b" " * 900_000).status_code == 400
-            break
-    else:
-        pytest.fail("Nothing was refused.")
-    with strict.client() as client:
+    with connect(strict) as first, strict.client() as client:
+        first.sendall(head(strict, 950_000) + b" " * 900_000)
+        # The service may not have taken all of it yet.
+        refused = until(lambda: _refused(client, b" " * 200_000))
+        assert refused.json()["type"] == "urn:tubeloom:problem:overloaded"
+        assert refused.headers["retry-after"] == "2"
+        assert client.post("/v1/layout", content=b" " * 50_000).status_code == 400
+        first.sendall(b" " * 50_000)
+        assert status_of(received(first)) == 400
+        # What was held has been given back.
         for _ in range(3):
             assert client.post("/v1/layout", content=b" " * 900_000).status_code == 400
+
+
+def test_what_was_held_of_a_body_that_came_too_slowly_is_given_back(impatient: Service) -> None:
+    beginning = head(impatient, 950_000) + b" " * 900_000
+    assert status_of(answer_to_slow_body(impatient, beginning, b"")) == 408
+    with impatient.client() as client:
+        content = b" " * 900_000
+        until(lambda: client.post("/v1/layout", content=content).status_code == 400)
+
+
+def _refused(client: httpx.Client, body: bytes) -> httpx.Response | None:
+    """The answer that there is no room, if it is that."""
+    answer = client.post("/v1/layout", content=body)
+    return answer if answer.status_code == 503 else None

@@ -1,11 +1,14 @@
 """Heads as large as they may be cost the event loop little, whatever is in them.
 
-What is measured is the CPU time of the thread that runs the event loop, not a clock.
+What is measured is the CPU time of the thread that runs the event loop, beside that of plain
+requests with heads as large: no machine is too slow for that.
 """
 
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from functools import partial
 from http.client import HTTPConnection
 
 import psutil
@@ -17,9 +20,12 @@ from tests.service import PATIENCE_SECONDS, SMALL, Service, fresh
 SIZE = 60_000
 """Bytes of one header or query; a head may have 65,536."""
 
-MOST_CPU_SECONDS = 0.25
-"""For one request. None takes more than a tenth of that here, and what grows with the square of the
-size takes seconds."""
+PLAIN_REQUESTS = 100
+"""Together they are what one may cost. None costs more than a tenth of that here; what grows with
+the square of the size costs ten times as much."""
+
+TRIES = 3
+"""What costs too much each time does: the service looks after itself meanwhile."""
 
 FILLINGS = (
     *(" ", "\t", ",", '"', ";", "\\", "=", "%", "a", "1", "-", ":", "/", "[", "."),
@@ -107,31 +113,48 @@ def ask(service: Service, call: str, lines: list[tuple[str, str]]) -> tuple[int,
     return response.status, answer
 
 
+@pytest.fixture(scope="module")
+def most(service: Service) -> float:
+    """CPU seconds of the event loop for `PLAIN_REQUESTS` with as large a head."""
+    before = spent(service)
+    for _ in range(PLAIN_REQUESTS):
+        ask(service, "POST /v1/layout", [("X-Nothing", "a" * SIZE)])
+    return spent(service) - before
+
+
+def costs_little(
+    service: Service, most: float, request: Callable[[], tuple[int, bytes]], large: int
+) -> bool:
+    """Whether it costs less than ``most``; what is refused must be so in fewer bytes than that."""
+    for _ in range(TRIES):
+        before = spent(service)
+        status, answer = request()
+        assert status < 400 or len(answer) < large
+        if spent(service) - before < most:
+            return True
+    return False
+
+
 @pytest.mark.parametrize("name", HEADERS)
-def test_no_header_holds_the_event_loop(service: Service, name: str) -> None:
+def test_no_header_holds_the_event_loop(service: Service, most: float, name: str) -> None:
     for filling in FILLINGS:
         for beginning in BEGINNINGS.get(name, ("",)):
             value = beginning + (filling * SIZE)[: SIZE - len(beginning)]
-            before = spent(service)
-            status, answer = ask(service, HEADERS[name], [(name, value)])
-            assert spent(service) - before < MOST_CPU_SECONDS, (filling, beginning)
-            assert status < 400 or len(answer) < 2_000
+            request = partial(ask, service, HEADERS[name], [(name, value)])
+            assert costs_little(service, most, request, 2_000), (filling, beginning)
 
 
 @pytest.mark.parametrize("name", QUERIES)
-def test_no_query_holds_the_event_loop(service: Service, name: str) -> None:
+def test_no_query_holds_the_event_loop(service: Service, most: float, name: str) -> None:
     for call in CALLS:
-        before = spent(service)
-        status, answer = ask(service, f"{call}?{QUERIES[name]}", [])
-        assert spent(service) - before < MOST_CPU_SECONDS, call
-        assert status < 400 or len(answer) < 20_000
+        request = partial(ask, service, f"{call}?{QUERIES[name]}", [])
+        assert costs_little(service, most, request, 20_000), call
 
 
 @pytest.mark.parametrize("name", ["a", "Accept", "Prefer", "If-None-Match", "Cookie"])
-def test_many_headers_do_not_hold_the_event_loop(service: Service, name: str) -> None:
-    before = spent(service)
-    ask(service, "POST /v1/render", [(name, "a")] * (SIZE // (len(name) + 5)))
-    assert spent(service) - before < MOST_CPU_SECONDS
+def test_many_headers_do_not_hold_the_event_loop(service: Service, most: float, name: str) -> None:
+    lines = [(name, "a")] * (SIZE // (len(name) + 5))
+    assert costs_little(service, most, partial(ask, service, "POST /v1/render", lines), 20_000)
 
 
 def test_a_query_of_many_parameters_is_refused_by_their_number(service: Service) -> None:

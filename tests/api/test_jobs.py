@@ -213,19 +213,35 @@ def scarce(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
         yield running
 
 
-def test_what_takes_too_long_fails_and_too_many_jobs_are_refused(scarce: Service) -> None:
-    film = "format=webp&width=640&height=480&frames=1000"
+FILM = "format=webp&width=640&height=480&frames=1000"
+"""A render that takes minutes."""
+
+
+def test_too_many_jobs_are_refused(scarce: Service) -> None:
     with scarce.client() as client:
-        first = start(client, film, program("first"))
-        until(lambda: state(client, first)["state"] == "running")
-        second = start(client, film, program("second"))
-        third = client.post(f"/v1/jobs?{film}", json=program("third"))
+
+        def refused() -> httpx.Response | None:
+            """The refusal of one job beside two others, unless these were over meanwhile."""
+            first = start(client, FILM, program("first"))
+            until(lambda: state(client, first)["state"] != "waiting")
+            second = start(client, FILM, program("second"))
+            third = client.post(f"/v1/jobs?{FILM}", json=program("third"))
+            for job in (first, second, third.headers.get("location")):
+                if job is not None:
+                    client.delete(job)
+            return third if third.status_code != 202 else None
+
+        third = until(refused)
         assert third.status_code == 503
         assert third.json()["type"] == "urn:tubeloom:problem:overloaded"
         assert float(third.headers["retry-after"]) > 0
-        client.delete(second)
-        client.delete(start(client, film, program("fourth")))
-        found = over(client, first)
+        # There is room again.
+        client.delete(start(client, FILM, program("fourth")))
+
+
+def test_what_takes_too_long_fails(scarce: Service) -> None:
+    with scarce.client() as client:
+        found = over(client, start(client, FILM, program("too long")))
         assert found["state"] == "failed"
         assert found["problem"]["type"] == "urn:tubeloom:problem:deadline-exceeded"
         assert "6 seconds" in found["problem"]["detail"]

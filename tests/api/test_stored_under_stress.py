@@ -30,7 +30,8 @@ def test_no_change_of_two_writers_gets_lost_nor_one_before_the_service_is_killed
     races: list[Race] = []
     outcome = survive(24, 1, url, before=lambda service: races.append(race(service, 40)))
     assert [(each.count, each.revisions) for each in races] == [(40, 41)]
-    assert outcome.acknowledged > 8
+    # All but one that it was killed over, and three of a program that this was to make, at worst.
+    assert outcome.acknowledged >= 24 - 4
     assert (outcome.lost, outcome.broken) == (0, 0)
 
 

@@ -7,7 +7,7 @@ import json
 import socket
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from urllib.parse import urlsplit
 
 import psutil
@@ -112,16 +112,26 @@ def test_who_is_refused_is_told_when_to_come_again(service: Service) -> None:
 
 def test_who_reads_slowly_but_steadily_gets_all(service: Service) -> None:
     until(lambda: _is_served(service))
-    with asking(service) as connection:
-        received = bytearray()
-        began = time.monotonic()
+    head, _, body = until(lambda: _read_steadily(service)).partition(b"\r\n\r\n")
+    assert status_of(head) == 200
+    assert json.loads(body)["items"][0]["id"] == "a"
+
+
+def _read_steadily(service: Service) -> bytes | None:
+    """The answer, read for long; none where the machine kept us from reading for a while."""
+    received = bytearray()
+    longest, began = 0.0, time.monotonic()
+    with asking(service) as connection, suppress(ConnectionError):
+        last = began
         while part := connection.recv(64 * 1024):
             received += part
             time.sleep(0.05)
-        assert time.monotonic() - began > 2 * WRITE_SECONDS
-    head, _, body = bytes(received).partition(b"\r\n\r\n")
-    assert status_of(head) == 200
-    assert json.loads(body)["items"][0]["id"] == "a"
+            last, before = time.monotonic(), last
+            longest = max(longest, last - before)
+    if longest > WRITE_SECONDS / 4:
+        return None
+    assert time.monotonic() - began > 2 * WRITE_SECONDS
+    return bytes(received)
 
 
 def _is_served(service: Service) -> bool:

@@ -7,6 +7,7 @@ import re
 import threading
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import pytest
@@ -30,7 +31,7 @@ from tubeloom_client import (
 
 from tests.clients.ports import free_port
 from tests.clients.watching import Watcher
-from tests.service import PATIENCE_SECONDS, SMALL, Service
+from tests.service import PATIENCE_SECONDS, SMALL, Service, until
 
 FINAL: dict[str, Any] = {"quality": "final", "width": 64, "height": 48, "samples": 1}
 LONG: dict[str, Any] = {"quality": "final", "width": 320, "height": 240, "samples": 65536}
@@ -257,10 +258,20 @@ def test_a_busy_service_is_asked_again_for_as_long_as_one_likes(
     service, key = guarded
     with Client(service.url, key=key, patience=30.0) as patient:
         assert [len(patient.render(SMALL)) > 0 for _ in range(5)] == [True] * 5
-    with Client(service.url, key=key, patience=0.0) as hasty, pytest.raises(Busy) as caught:
-        [hasty.render(SMALL) for _ in range(5)]
-    assert caught.value.retry_after is not None
-    assert 0 < caught.value.retry_after <= 3
+
+    def refused(_: int) -> Busy | None:
+        with Client(service.url, key=key, patience=0.0) as hasty:
+            try:
+                hasty.layout(SMALL)
+            except Busy as busy:
+                return busy
+        return None
+
+    # A slow machine may take as long for each as the rate wants: so they all ask at once.
+    with ThreadPoolExecutor(8) as people:
+        busy = until(lambda: next(filter(None, people.map(refused, range(8))), None))
+    assert busy.retry_after is not None
+    assert 0 < busy.retry_after <= 3
 
 
 def test_where_nobody_listens_patience_runs_out() -> None:

@@ -15,14 +15,13 @@ from typing import Any
 import pytest
 from tubeloom_client import Client, Current, Deleted, Happening, JobState, Revision
 
-from tests.api.job_calls import DRAWING, LASTING
+from tests.api.job_calls import DRAWING, PERIODS, lasting
 from tests.clients.ports import free_port
 from tests.clients.typescript_package import can_run, require_node
 from tests.clients.watching import Watcher, heard, watching_in_node
 from tests.service import PATIENCE_SECONDS, SMALL, running_service, until
 
-SLOW: dict[str, Any] = {"quality": "final", "width": 96, "height": 72, **LASTING}
-"""A render that goes on for so long that the service can be killed over it."""
+SMALL_PICTURE: dict[str, Any] = {"quality": "final", "width": 96, "height": 72}
 
 
 @dataclass(frozen=True)
@@ -58,11 +57,17 @@ def story(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureReque
             made.append(program.patch({"name": "before"}))
             assert watcher.next() == made[-1]
             assert node is None or heard(node)["name"] == "before"
-            job = client.start(SMALL, **SLOW)
-            follower = threading.Thread(target=lambda: pictures.put(job.wait(states.append)))
-            follower.start()
-            until(lambda: states and states[-1].share > DRAWING)
-            assert not states[-1].is_over
+            for seconds in PERIODS:
+                states.clear()
+                job = client.start(SMALL, **SMALL_PICTURE, **lasting(seconds))
+                follower = threading.Thread(
+                    target=lambda job=job: pictures.put(job.wait(states.append))
+                )
+                follower.start()
+                until(lambda: states and states[-1].share > DRAWING)
+                if not states[-1].is_over:
+                    break
+                pictures.get(timeout=PATIENCE_SECONDS)
             service.kill()
         # Whoever writes meanwhile goes on as soon as there is a service again, and writes once.
         writer = threading.Thread(target=lambda: made.append(program.patch({"name": "meanwhile"})))

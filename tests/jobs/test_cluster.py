@@ -8,7 +8,17 @@ from pathlib import Path
 
 import pytest
 
-from tests.api.job_calls import LONG, PICTURE, WATCHED, at_work, over, program, start
+from tests.api.job_calls import (
+    LONG,
+    PERIODS,
+    PICTURE,
+    at_work,
+    caught,
+    over,
+    program,
+    start,
+    watched,
+)
 from tests.cluster import Cluster, running_cluster
 from tests.postgres import Postgres, running_postgres
 from tests.service import Service, cpu_seconds, running_service, spent_until_gone, until
@@ -75,11 +85,14 @@ def test_who_cancels_a_job_frees_a_processor_of_the_cluster_within_a_second(site
 def test_jobs_end_once_whatever_is_killed(site: Site) -> None:
     documents = [program(f"among the dying {number}") for number in range(3)]
     with site.service.client() as client:
-        jobs = [start(client, WATCHED, document) for document in (*documents, documents[0])]
-        at_work(client, jobs[0])
+        query = watched(PERIODS[0])
+        jobs = [start(client, query, document) for document in (*documents, documents[0])]
+        caught(client, jobs[0])
+        # One is there in any case when it comes to dying, however long the machine stops before.
+        long = start(client, LONG, program("among the dying, and not over by then"))
         site.cluster.kill_worker(0)
         site.cluster.kill_worker(1)
-        at_work(client, jobs[1], 0.1)
+        caught(client, jobs[1], 0.1)
         site.cluster.kill_scheduler()
         until(lambda: "cluster lost a work" in site.service.log.read_text())
         site.postgres.kill()
@@ -88,6 +101,7 @@ def test_jobs_end_once_whatever_is_killed(site: Site) -> None:
         assert refused.status_code == 503
         assert refused.json()["type"] == "urn:tubeloom:problem:store-unavailable"
         site.postgres.start()
+        until(lambda: client.delete(long).status_code == 204)
         found = [over(client, job) for job in jobs]
         assert [each["state"] for each in found] == ["done"] * len(jobs), found
         made = [client.get(f"{job}/result").content for job in jobs]
