@@ -37,6 +37,7 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.glb
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.svg
 	$(BIN)/tubeloom render examples/paper-curves.json -o $(VENV)/paper.glb
+	$(BIN)/tubeloom layout examples/in-space.json -o $(VENV)/space.json
 	@touch $@
 
 app/web/built: $(WEB_SOURCES) tools/build-web.sh tools/node.sh | $(VENV)/bin/python

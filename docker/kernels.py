@@ -20,7 +20,7 @@ OUTPUTS = ("a.glb", "a.svg", "a.png", "a.stl")
 
 def work(folder: Path) -> Iterator[list[str]]:
     """What is asked of the command line."""
-    for name in ("hello.json", "id3-clause-2.json"):
+    for name in ("hello.json", "id3-clause-2.json", "in-space.json"):
         document = str(EXAMPLES / name)
         yield ["layout", document, "--patches", "-o", str(folder / "a.json")]
         for output in OUTPUTS:

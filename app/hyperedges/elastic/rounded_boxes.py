@@ -11,8 +11,8 @@ from app.arrays import Flags, Floats, Indices
 from app.hyperedges.clearance.obstacles import Obstacles
 from app.placement.placement import Placement
 
-PLACES = 5
-"""Places of a segment that are looked at: its ends, the thirds between them and the nearest."""
+PLACES = (0.5, 0.0, 1.0)
+"""Places of a segment that are looked at, as shares of its length, beside the nearest."""
 
 SOFTLY = 0.5
 """A label pushes with this share of an item's body."""
@@ -87,8 +87,8 @@ def repel(
             length += along[axis] * along[axis]
         for axis in range(3):
             along[axis] /= max(np.sqrt(length), 1e-9)
-        for place in range(PLACES):
-            s = place / (PLACES - 2) if place < PLACES - 1 else _nearest(x, a, b, boxes, o)
+        for place in range(len(PLACES) + 1):
+            s = PLACES[place] if place < len(PLACES) else _nearest(x, a, b, boxes, o)
             square = 0.0
             for axis in range(3):
                 there = x[a, axis] + s * (x[b, axis] - x[a, axis])
