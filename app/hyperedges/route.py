@@ -9,6 +9,7 @@ import numpy as np
 from app.arrays import Floats
 from app.hyperedges.curves import join_starts, lay_out, segment_starts
 from app.hyperedges.elastic.choice import route_clear
+from app.hyperedges.elastic.limits import can_relax
 from app.hyperedges.elastic.route import route_elastic
 from app.hyperedges.join_planes import choose_join_planes
 from app.hyperedges.routing import Routing
@@ -36,7 +37,8 @@ def route(
     wherever that is possible, and so that no curve bends more tightly than 1.5 times its tube's
     radius; without a clearance (None) each is laid for itself. ``routing`` says how: in ``planes``
     (`app.hyperedges.woven`), by ``elastic`` relaxation (`app.hyperedges.elastic`), or as ``auto``
-    by the one of the two that leaves fewer faults. With a ``previous`` layout whatever
+    by the one of the two that leaves fewer faults; what is too large for relaxation
+    (`app.hyperedges.elastic.limits`) goes in planes. With a ``previous`` layout whatever
     is not new stays where it is, unless it is in the way.
 
     Of the paper's curves, ``fidelity`` says whether exactly they are wanted ("paper") or ones that
@@ -55,6 +57,8 @@ def route(
     if curves == "steiner":
         if clearance is None:
             return lay_all(placement, join_heights)
+        if not can_relax(placement):
+            routing = "planes"
         if routing == "elastic":
             return route_elastic(placement, clearance, join_heights, previous, progress)
         if routing == "auto":
