@@ -9,6 +9,9 @@ from app.hyperedges.elastic.chains import Chains
 from app.hyperedges.elastic.fitting import Pieces
 from app.hyperedges.routing import Routing
 
+SHORTEST = 1e-12
+"""Handles shorter than this, in document units, have no direction."""
+
 
 def routing_of(pieces: Pieces, x: Floats, chains: Chains) -> Routing:
     """The routing that cubics along all chains make; join planes as they come out."""
@@ -35,8 +38,7 @@ def routing_of(pieces: Pieces, x: Floats, chains: Chains) -> Routing:
     positions[rows], tangents[rows] = x[: len(of)], pieces.tangents
     rows = (join_starts[:-1] + inner)[owners[bends]] + ranks
     positions[rows] = pieces.curves[bends, 3]
-    way = pieces.curves[bends, 3] - pieces.curves[bends, 2]
-    tangents[rows] = way / np.maximum(np.linalg.norm(way, axis=1), 1e-12)[:, None]
+    tangents[rows] = _tangents(pieces.curves, bends)
     return Routing(
         control_points=np.ascontiguousarray(pieces.curves),
         segment_starts=segment_starts,
@@ -47,6 +49,20 @@ def routing_of(pieces: Pieces, x: Floats, chains: Chains) -> Routing:
         join_planes=_planes(pieces, x, chains, segment_starts),
         radii=chains.radii,
     )
+
+
+def _tangents(curves: Floats, bends: Indices) -> Floats:
+    """Unit tangents (k, 3) between the cubics ``bends`` (k,) and those after them.
+
+    Where a handle has no length that of the next one, the whole cubic, or x stand in.
+    """
+    found = np.tile([1.0, 0.0, 0.0], (len(bends), 1))
+    last, after = curves[bends], curves[bends + 1]
+    for way in (last[:, 3] - last[:, 0], after[:, 1] - after[:, 0], last[:, 3] - last[:, 2]):
+        lengths = np.linalg.norm(way, axis=1)
+        long = lengths > SHORTEST
+        found[long] = way[long] / lengths[long, None]
+    return found
 
 
 def _planes(pieces: Pieces, x: Floats, chains: Chains, starts: Indices) -> Floats:

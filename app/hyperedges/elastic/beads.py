@@ -14,6 +14,9 @@ SPACING = 4.0
 """Distance between beads, over the tube's radius."""
 
 
+MOST_OF_CHAIN, MOST = 2048, 2_000_000
+"""Beads of a chain, and of all chains, at most; beyond that they lie farther apart."""
+
 NEVER_NEARER = 0.8
 """Least distance between neighbours, over what it was when they were spaced."""
 
@@ -88,7 +91,9 @@ def lay_beads(
     lengths = lengths_of(lines)
     attached = chains.ends >= joins
     least = 2 + attached.sum(axis=1)
-    counts = np.maximum(least, np.rint(lengths / (SPACING * radii))).astype(np.int64)
+    wanted = np.minimum(lengths / (SPACING * radii), MOST_OF_CHAIN)
+    wanted *= min(1.0, MOST / max(float(wanted.sum()), 1.0))
+    counts = np.maximum(least, np.rint(wanted)).astype(np.int64)
     segment_starts = np.concatenate([[0], np.cumsum(counts)])
     starts = nodes + segment_starts - np.arange(len(counts) + 1)
     moving = int(starts[-1])
@@ -123,25 +128,16 @@ def lay_beads(
         ],
         axis=1,
     )
-    thickness = np.empty(len(x))
-    lifts, lows = np.zeros(len(x)), np.full(len(x), -np.inf)
-    pulls = 0.5 * curvatures[chains.owners] * spans**2
-    of = np.repeat(np.arange(len(counts)), counts - 1)
-    thickness[nodes:moving] = radii[of]
-    lifts[nodes:moving] = pulls[of]
-    least_spans = np.zeros(len(x))
-    least_spans[nodes:moving] = (NEVER_NEARER * np.minimum(spans, SPACING * radii))[of]
-    lows[nodes:moving] = chains.floors[chains.owners][of]
-    for side in range(2):
-        thickness[chains.ends[:, side]] = radii
-        lows[chains.ends[:, side]] = chains.floors[chains.owners]
-        np.add.at(lifts, chains.ends[:, side], pulls / 3.0)
-    lifts[joins:nodes] = 0.0
-    thickness[moving:] = 0.0
+    thickness = np.zeros(len(x))
+    thickness[nodes:moving] = np.repeat(radii, counts - 1)
+    thickness[chains.ends] = radii[:, None]
     if len(fixed.segments):
         thickness[moving + fixed.segments] = fixed.radii[:, None]
-    highs = np.full(len(x), np.inf)
-    _hold(chains, starts, counts, lows, highs)
+    least_spans = np.zeros(len(x))
+    near = NEVER_NEARER * np.minimum(spans, SPACING * radii)
+    least_spans[nodes:moving] = np.repeat(near, counts - 1)
+    lifts = _lifts(chains, counts, 0.5 * curvatures[chains.owners] * spans**2, len(x))
+    lows, highs = _heights(chains, starts, counts, free)
     beads = Beads(
         ends=chains.ends,
         starts=starts,
@@ -163,16 +159,38 @@ def lay_beads(
     return beads, x
 
 
-def _hold(chains: Chains, starts: Indices, counts: Indices, lows: Floats, highs: Floats) -> None:
-    """Hold joins, or the middles of curves between two attachments, where that is wished for."""
-    if np.isnan(chains.heights).all():
-        return
+def _lifts(chains: Chains, counts: Indices, pulls: Floats, size: int) -> Floats:
+    """How far beads are drawn upwards, (``size``,): those of each chain by its ``pulls`` (c,)."""
+    joins, nodes = chains.joins, chains.joins + len(chains.positions)
+    lifts = np.zeros(size)
+    for side in range(2):
+        np.add.at(lifts, chains.ends[:, side], pulls / 3.0)
+    lifts[joins:nodes] = 0.0
+    inner = np.repeat(pulls, counts - 1)
+    lifts[nodes : nodes + len(inner)] = inner
+    return lifts
+
+
+def _heights(
+    chains: Chains, starts: Indices, counts: Indices, free: Floats
+) -> tuple[Floats, Floats]:
+    """The least and the largest heights of beads, (b,).
+
+    Joins, or the middles of curves between two attachments, are held where that is wished for.
+    """
+    lows, highs = np.full(len(free), -np.inf), np.full(len(free), np.inf)
+    floors = chains.floors[chains.owners]
+    lows[starts[0] : starts[-1]] = np.repeat(floors, counts - 1)
+    lows[chains.ends] = floors[:, None]
     wanted = np.repeat(chains.heights, np.diff(chains.join_starts))
     held = np.flatnonzero(~np.isnan(wanted))
     lows[held] = highs[held] = wanted[held]
     alone = (chains.ends >= chains.joins).all(axis=1) & ~np.isnan(chains.heights[chains.owners])
     middles = (starts[:-1] + (counts - 1) // 2)[alone]
     lows[middles] = highs[middles] = chains.heights[chains.owners[alone]]
+    # What does not move is where it is.
+    lows[free == 0.0], highs[free == 0.0] = -np.inf, np.inf
+    return lows, highs
 
 
 def lines_of(beads: Beads, x: Floats) -> Polylines:

@@ -10,6 +10,9 @@ from app.arrays import Flags, Floats, Indices
 TOUCHING = 1e-5
 """Axes nearer than this, in document units, pass through each other."""
 
+LEAST_SHARE = 0.05
+"""Beads that have less to do with the nearest place are not moved for it all the farther."""
+
 
 @njit(cache=True, error_model="numpy")
 def separate(
@@ -52,7 +55,7 @@ def separate(
         total = wa * (1.0 - s) + wb * s + wc * (1.0 - t) + wd * t
         if total <= 0.0:
             continue
-        push /= total
+        push /= max(total, LEAST_SHARE)
         _add(sums, weights, a, wa, push, u, v, w)
         _add(sums, weights, b, wb, push, u, v, w)
         _add(sums, weights, c, wc, -push, u, v, w)

@@ -25,6 +25,10 @@ FARTHEST = 0.6
 """Longest correction in one step, over the tube's radius."""
 
 
+FEWEST = 3
+"""Steps that are taken even where beads go far: what is overlooked is seen afterwards."""
+
+
 class Rates(NamedTuple):
     """How strongly chains are straightened.
 
@@ -81,13 +85,14 @@ def relax(
 ) -> int:
     """Take steps ``first`` to ``last`` of a run; the number of the next one.
 
-    It ends before where a bead has gone half of ``skin`` (in document units): other things may be
-    near it then. ``x`` (b, 3) and what is beside it as `app.hyperedges.elastic.beads.Beads` has it;
-    ``stems`` (j,): which link of a join is its stem; ``bends`` (b,): least radii of curvature;
-    ``spans`` (b,): least distances from neighbours.
-    ``rooms`` (s,): half of what a segment keeps
-    from others, its tube with it; ``half`` is half of the clearance. Only the beads ``moving`` (m,)
-    move, which with their neighbours are those ``around`` (n,).
+    It ends before, but not before `FEWEST` steps, where a bead has gone half of ``skin`` (in
+    document units): other things may be near it then.
+
+    ``x`` (b, 3) and what is beside it as `app.hyperedges.elastic.beads.Beads` has it; ``stems``
+    (j,): which link of a join is its stem; ``bends`` (b,): least radii of curvature; ``spans``
+    (b,): least distances from neighbours. ``rooms`` (s,): half of what a segment keeps from others,
+    its tube with it; ``half`` is half of the clearance. Only the beads ``moving`` (m,) move, which
+    with their neighbours are those ``around`` (n,).
     """
     start = x.copy()
     laps, tangents = np.zeros_like(x), np.zeros((len(stems), 3))
@@ -132,7 +137,7 @@ def relax(
         spread(x, near.apart, near.distances, free, sums, weights)
         farthest = move(x, start, moving, thickness, lows, highs, sums, weights)
         step += 1
-        if farthest > 0.5 * skin:
+        if farthest > 0.5 * skin and step - first >= FEWEST:
             break
     return step
 

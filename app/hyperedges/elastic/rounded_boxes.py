@@ -9,6 +9,7 @@ from numba import njit
 
 from app.arrays import Flags, Floats, Indices
 from app.hyperedges.clearance.obstacles import Obstacles
+from app.hyperedges.elastic.capsules import LEAST_SHARE
 from app.placement.placement import Placement
 
 PLACES = (0.5, 0.0, 1.0)
@@ -109,6 +110,7 @@ def repel(
         total = wa * (1.0 - at) + wb * at
         if total <= 0.0:
             continue
+        total = max(total, LEAST_SHARE)
         for axis in range(3):
             sums[a, axis] += wa / total * worst * way[axis]
             sums[b, axis] += wb / total * worst * way[axis]

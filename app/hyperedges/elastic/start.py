@@ -85,7 +85,8 @@ def curvatures_of(chains: Chains) -> Floats:
     One curvature for all chains of a hyperedge, so that they meet in one dome: a parabola over a
     span d that rises by R d has the second derivative 8 R / d.
     """
-    return np.where(chains.hung, 8.0 * RISE / np.maximum(_spans(chains), 1e-9), 0.0)
+    spans = np.maximum(_spans(chains), 2.0 * SPACING * chains.radii)
+    return np.where(chains.hung, 8.0 * RISE / spans, 0.0)
 
 
 def start_lines(chains: Chains, joins: Floats) -> Polylines:

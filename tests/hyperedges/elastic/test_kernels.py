@@ -9,7 +9,7 @@ import pytest
 
 from app.arrays import Floats, Indices
 from app.hyperedges.elastic.bending import join_tangent, keep_long, straighten, unbend
-from app.hyperedges.elastic.capsules import nearest, separate, within
+from app.hyperedges.elastic.capsules import LEAST_SHARE, nearest, separate, within
 from app.hyperedges.elastic.polylines import resample
 from app.hyperedges.elastic.relaxation import FARTHEST, OVER, move, spread
 from app.hyperedges.elastic.rounded_boxes import Boxes, repel
@@ -201,7 +201,7 @@ def test_capsules_push_each_other_apart_by_what_they_lack() -> None:
         total = sum(share**2 * free[bead] for bead, share in shares.items())
         if np.linalg.norm(way) >= need or total == 0:
             continue
-        push = (need - np.linalg.norm(way)) * unit(way) / total
+        push = (need - np.linalg.norm(way)) * unit(way) / max(total, LEAST_SHARE)
         for bead, share in shares.items():
             expected[bead] += free[bead] * share * push
     assert np.abs(expected).max() > 0

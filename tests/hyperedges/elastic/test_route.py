@@ -22,6 +22,7 @@ from app.settings import Settings
 from benchmarks.random_in_space import random_in_space
 from benchmarks.random_programs import CLEARANCE, random_program
 from tests.hyperedges.scenes import placement as placement_of
+from tests.hyperedges.scenes import troubles
 
 Kind = Literal["ground", "space"]
 CASES: list[tuple[Kind, int, int]] = [
@@ -234,6 +235,31 @@ def test_progress_can_end_the_work() -> None:
     with pytest.raises(Ended):
         route(placed("ground", 10, 1), routing="elastic", clearance=CLEARANCE, progress=progress)
     assert shares == sorted(shares)
+
+
+@pytest.mark.parametrize(
+    "name", sorted(set(troubles(6)) - {"huge", "all scales", "two far clusters"})
+)
+@pytest.mark.parametrize("side", ["up", "down", "all"])
+def test_whatever_is_to_be_joined_curves_are_finite_and_end_there(name: str, side: str) -> None:
+    points = troubles(6)[name]
+    scene = placement_of(points, [0, 2, 6])
+    if side != "up":
+        chance = np.random.default_rng(1)
+        directions = -scene.attachment_directions
+        if side == "all":
+            directions = chance.normal(size=(6, 3))
+            directions /= np.linalg.norm(directions, axis=1)[:, None]
+        scene = replace(scene, attachment_directions=directions)
+    routing = elastic(scene)
+    for numbers in (routing.control_points, routing.join_tangents, routing.join_planes):
+        assert np.isfinite(numbers).all()
+    np.testing.assert_allclose(np.linalg.norm(routing.join_tangents, axis=1), 1.0)
+    counts = np.repeat(routing.attachment_counts, np.diff(routing.segment_starts))
+    at_start = np.flatnonzero(routing.segment_ends[:, 0] < counts)
+    firsts = scene.attachment_starts[np.repeat([0, 1], np.diff(routing.segment_starts))]
+    rows = firsts[at_start] + routing.segment_ends[at_start, 0]
+    np.testing.assert_array_equal(routing.control_points[at_start, 0], points[rows])
 
 
 def test_a_program_without_hyperedges_has_no_curves() -> None:
