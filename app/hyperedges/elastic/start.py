@@ -32,7 +32,8 @@ def chains_of(
     """The chains of the hyperedges ``chosen`` (k,), along short trees, and joins (j, 3).
 
     ``join_heights`` (k,): where joins are held, NaN where they are free. Where all items stand
-    ``on_ground`` no bead comes nearer to it than its tube's radius.
+    ``on_ground`` no bead comes nearer to it than its tube's radius, unless an attachment leads
+    there.
     """
     counts = np.diff(placement.attachment_starts)[chosen]
     rows = rows_of(placement.attachment_starts, chosen)
@@ -59,7 +60,8 @@ def chains_of(
         join_starts[-1] + starts[owners, None] + edges,
         join_starts[owners, None] + edges - counts[owners, None],
     )
-    floors = radii if on_ground else np.full(len(radii), -np.inf)
+    lowest = np.minimum.reduceat(bases[:, 2], starts[:-1]) if len(chosen) else radii
+    floors = np.where((lowest >= radii) & on_ground, radii, -np.inf)
     chains = Chains(
         ends=ends,
         local_ends=edges,

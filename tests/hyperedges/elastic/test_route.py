@@ -29,6 +29,7 @@ CASES: list[tuple[Kind, int, int]] = [
     *(("ground", 10, seed) for seed in range(6)),
     *(("ground", 30, seed) for seed in range(3)),
     *(("space", 10, seed) for seed in range(6)),
+    ("space", 10, 16),  # an attachment leads below the ground that all items stand above
     *(("space", 30, seed) for seed in range(3)),
     ("space", 100, 0),
 ]
