@@ -8,16 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
-from app.hyperedges.clearance.obstacles import (
-    Obstacles,
-    near_obstacles,
-    obstacle_gaps,
-    obstacles_of,
-)
+from app.hyperedges.clearance.beside_items import ItemsAround
+from app.hyperedges.clearance.obstacles import Obstacles, obstacle_gaps, obstacles_of
 from app.hyperedges.clearance.own import OwnContacts, own_contacts
-from app.hyperedges.clearance.own_bodies import beyond_own_balls, leaving_radii
 from app.hyperedges.clearance.pairs import Gaps, gaps, near_pairs
-from app.hyperedges.clearance.passable import are_among, attached_items, containing_items
 from app.hyperedges.routing import Routing
 from app.placement.placement import Placement
 
@@ -99,15 +93,15 @@ def certify(routing: Routing, placement: Placement, clearance: float) -> Certifi
     _refuse_infinite(routing, placement)
     scene = _Scene.of(routing, placement, clearance)
     near = scene.near(clearance)
-    found = near.measured(scene.obstacles, clearance)
-    conflicts = _once(near.contacts(scene.obstacles, found), found.lower < clearance)
+    found = near.measured(scene.around.obstacles, clearance)
+    conflicts = _once(near.contacts(scene.around.obstacles, found), found.lower < clearance)
     nearest: Contact | None
     if len(conflicts):
         nearest = _nearest(conflicts)
         minimum = nearest.lower
     else:
         reach = clearance + AHEAD * float(routing.radii.max(initial=0.0))
-        minimum, nearest = _look_ahead(scene.near(reach), scene.obstacles, reach)
+        minimum, nearest = _look_ahead(scene.near(reach), scene.around.obstacles, reach)
         # The clearance is proven already, and may be within a hundredth of the smallest distance.
         minimum = max(minimum, clearance)
     return Certificate(
@@ -122,47 +116,23 @@ class _Scene:
     points: Floats
     owners: Indices
     radii: Floats
-    obstacles: Obstacles
-    placement: Placement
-    attached: Indices
-    containing: Indices
-    balls: Floats
+    around: ItemsAround
 
     @classmethod
     def of(cls, routing: Routing, placement: Placement, clearance: float) -> _Scene:
         owners = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
-        bodies = obstacles_of(placement).bodies
         return cls(
-            points=np.ascontiguousarray(routing.control_points),
-            owners=owners,
-            radii=routing.radii[owners],
-            obstacles=bodies,
-            placement=placement,
-            attached=attached_items(placement),
-            containing=containing_items(placement),
-            balls=leaving_radii(placement, bodies, clearance),
+            np.ascontiguousarray(routing.control_points),
+            owners,
+            routing.radii[owners],
+            ItemsAround.of(placement, obstacles_of(placement).bodies, clearance),
         )
 
     def near(self, reach: float) -> _Near:
         """What may be nearer than ``reach``."""
-        points, owners, radii = self.points, self.owners, self.radii
-        tubes = near_pairs(points, owners, radii, reach)
-        items = near_obstacles(points, owners, radii, self.obstacles, self.containing, reach)
-        named = np.stack([owners[items[:, 0]], self.obstacles.items[items[:, 1]]], axis=1)
-        own = are_among(named, self.attached)
-        if not own.any():
-            return _Near(points, owners, radii, tubes, items)
-        beside, named = items[own], named[own]
-        pieces, pairs = beyond_own_balls(points[beside[:, 0]], named, self.placement, self.balls)
-        segments = beside[pairs, 0]
-        numbers = len(points) + np.arange(len(pieces))
-        return _Near(
-            np.concatenate([points, pieces]),
-            np.concatenate([owners, owners[segments]]),
-            np.concatenate([radii, radii[segments]]),
-            tubes,
-            np.concatenate([items[~own], np.stack([numbers, beside[pairs, 1]], axis=1)]),
-        )
+        tubes = near_pairs(self.points, self.owners, self.radii, reach)
+        beside = self.around.near(self.points, self.owners, self.radii, reach)
+        return _Near(beside.points, beside.owners, beside.radii, tubes, beside.pairs)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,8 +15,8 @@ class Chains(NamedTuple):
     of. ``join_starts`` and ``attachment_starts`` (h + 1,): where the joins and the attachments of
     each hyperedge begin, each numbered from 0.
 
-    ``positions`` and unit, outward ``directions`` (a, 3) of attachments, document units; ``items``
-    (a,) are what they are on. ``radii`` (h,) are the tubes'. ``hung`` (h,): whether all attachments
+    ``positions`` and unit, outward ``directions`` (a, 3) of attachments, document units. ``radii``
+    (h,) are the tubes'. ``hung`` (h,): whether all attachments
     point upwards, so that the hyperedge is an arch. ``heights`` (h,): where its joins are held, NaN
     where they are free. ``floors`` (h,): the least height of beads.
     """
@@ -28,7 +28,6 @@ class Chains(NamedTuple):
     attachment_starts: Indices
     positions: Floats
     directions: Floats
-    items: Indices
     radii: Floats
     hung: Flags
     heights: Floats

@@ -8,7 +8,8 @@ import numpy as np
 
 from app.arrays import Flags, Floats, Indices
 from app.grouped import rows_of
-from app.hyperedges.clearance.obstacles import Obstacles, near_obstacles, obstacle_gaps
+from app.hyperedges.clearance.beside_items import ItemsAround
+from app.hyperedges.clearance.obstacles import obstacle_gaps
 from app.hyperedges.clearance.own import own_contacts
 from app.hyperedges.clearance.pairs import gaps, near_pairs
 from app.hyperedges.pinches import find_pinches
@@ -54,15 +55,11 @@ class Faults:
 def find_faults(
     routing: Routing,
     kept: Curves,
-    obstacles: Obstacles,
-    attached: Indices,
+    around: ItemsAround,
     clearance: float,
     active: Flags,
 ) -> Faults:
-    """The faults of the hyperedges ``active`` (h,), and of others with them.
-
-    ``attached`` (k, 2), sorted: hyperedges, and items that are not in their way.
-    """
+    """The faults of the hyperedges ``active`` (h,), and of others with them and with items."""
     count = len(routing.control_points)
     owners = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
     asked = np.concatenate([active[owners], np.zeros(len(kept.owners), dtype=np.bool_)])
@@ -78,15 +75,15 @@ def find_faults(
         found.lower[close],
         found.places[close],
     )
-    items = near_obstacles(points, owners, radii, obstacles, attached, clearance, asked)
-    beside = obstacle_gaps(points, radii, obstacles, items, clearance)
+    near = around.near(points, owners, radii, clearance, asked)
+    beside = obstacle_gaps(near.points, near.radii, around.obstacles, near.pairs, clearance)
     close = beside.lower < clearance
     part = np.flatnonzero(active)
     some = routing.part(part)
     own = own_contacts(some)
     rows = rows_of(routing.segment_starts, part)
     return Faults(
-        segments=np.concatenate([pairs[:, 0], items[close, 0]]),
+        segments=np.concatenate([pairs[:, 0], near.segments[near.pairs[close, 0]]]),
         others=np.concatenate([pairs[:, 1], np.full(int(close.sum()), -1)]),
         places=np.concatenate([places, beside.places[close]]),
         ways=np.concatenate([_ways(points, pairs, at), np.zeros((int(close.sum()), 3))]),

@@ -36,24 +36,26 @@ class Items:
     """Boxes of items to keep clear of.
 
     ``owners`` (m,) are the boxes' items; ``tree`` is over the boxes. ``ignored`` (k, 2), sorted:
-    hyperedges, and items that are not in their way at all.
+    hyperedges, and items that are not in their way at all. ``own``: attachments, and their items
+    and the parts of these, (n,) each, which do not count near them.
     """
 
     boxes: Boxes
     owners: Indices
     tree: Tree | None
     ignored: Indices
+    own: tuple[Indices, Indices]
 
     @staticmethod
-    def of(boxes: Boxes, owners: Indices, ignored: Indices) -> Items:
+    def of(boxes: Boxes, owners: Indices, ignored: Indices, own: tuple[Indices, Indices]) -> Items:
         """With a tree over them."""
         if len(owners) == 0:
-            return Items(boxes, owners, None, ignored)
+            return Items(boxes, owners, None, ignored, own)
         reach = np.einsum("kij,kj->ki", np.abs(boxes.rotations), boxes.halves)
         reach += boxes.roundings[:, None]
         nothing = np.zeros((len(owners), 1))
         corners = [boxes.centers - reach, nothing, boxes.centers + reach, nothing]
-        return Items(boxes, owners, plant(np.hstack(corners)), ignored)
+        return Items(boxes, owners, plant(np.hstack(corners)), ignored, own)
 
 
 def find_near(
@@ -132,16 +134,18 @@ def _near_items(
     numbers, strangers = np.arange(len(asking)), np.full(len(items.owners), -1)
     near = meeting(items.tree, around, numbers, (numbers, strangers))
     near[:, 0] = asking[near[:, 0]]
-    count = int(max(items.owners.max(), chains.items.max(initial=0))) + 1
+    ends_of, own_items = items.own
+    count = int(max(items.owners.max(), own_items.max(initial=0))) + 1
     keys = beads.owners[near[:, 0]] * count + items.owners[near[:, 1]]
     if len(items.ignored):
         kept = ~np.isin(keys, items.ignored[:, 0] * count + items.ignored[:, 1])
         near, keys = near[kept], keys[kept]
     exempt = np.zeros((len(near), 4))
     owners = np.repeat(np.arange(len(chains.radii)), np.diff(chains.attachment_starts))
-    attached = owners * count + chains.items
+    attached = owners[ends_of] * count + own_items
     order = np.argsort(attached, kind="stable")
     begins, ends = (np.searchsorted(attached[order], keys, side) for side in ("left", "right"))
+    order = ends_of[order]
     own = np.flatnonzero(ends > begins)
     if len(own):
         middles = x[beads.segments[near[own, 0]]].mean(axis=1)

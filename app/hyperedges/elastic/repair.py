@@ -76,9 +76,7 @@ def mend(
         progress()
         pieces = fit(state.x, state.beads, state.chains, state.stems, sweeps, pieces, active)
         routing = routing_of(pieces, state.x, state.chains)
-        faults = find_faults(
-            routing, around.kept, around.obstacles, around.attached, around.clearance, active
-        )
+        faults = find_faults(routing, around.kept, around.proven, around.clearance, active)
         if best is None or faults.count < best.faults.count:
             best = Mended(routing, replace(state, x=state.x.copy()), pieces, faults)
         if faults.count == 0 or number == rounds:

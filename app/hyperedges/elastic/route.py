@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from app.arrays import Flags, Floats, Indices
+from app.grouped import rows_of, starts_of
+from app.hyperedges.clearance.beside_items import ItemsAround
 from app.hyperedges.clearance.obstacles import Obstacles, obstacles_of
-from app.hyperedges.clearance.passable import containing_items, passable_items
+from app.hyperedges.clearance.passable import containing_items, passable_items, with_parts
 from app.hyperedges.elastic.fixed import curves_of, fixed_beside
 from app.hyperedges.elastic.neighbours import Items
 from app.hyperedges.elastic.relaxed import Progress, relaxed
@@ -39,14 +43,13 @@ def route_elastic(
     A hyperedge may be within its own items only near where it attaches to them; what contains these
     is not in its way at all.
     """
-    passable, attached = containing_items(placement), passable_items(placement)
     obstacles = obstacles_of(placement)
     boxes = boxes_of(obstacles, placement)
     kept = np.zeros(len(placement.radii), dtype=np.bool_)
     if previous is not None:
         kept = unmoved(placement, join_heights, previous)
         new = new_obstacles(obstacles, previous.placement)
-        kept &= ~too_near(kept, placement, previous, new, attached, clearance)
+        kept &= ~too_near(kept, placement, previous, new, passable_items(placement), clearance)
         if kept.all():
             return select(previous.routing, previous.numbers)
     best: tuple[Mended, Flags] | None = None
@@ -63,8 +66,6 @@ def route_elastic(
             old,
             boxes,
             obstacles,
-            attached,
-            passable,
             progress,
         )
         if best is None or made.faults.count < best[0].faults.count:
@@ -92,17 +93,16 @@ def _beside(
     old: Routing | None,
     boxes: Boxes,
     obstacles: Obstacles,
-    attached: Indices,
-    passable: Indices,
     progress: Progress,
 ) -> Mended:
     """Curves of the hyperedges ``chosen`` (k,), beside the ``old`` ones of all others."""
     none = np.zeros(0, dtype=np.int64)
     curves = curves_of(old or select(_nothing(), none), len(chosen))
+    part = _part(placement, chosen)
+    own = with_parts(part.attachment_items, part)
     around = Surroundings(
-        Items.of(boxes, obstacles.items, _of(passable, chosen)),
-        obstacles,
-        _of(attached, chosen),
+        Items.of(boxes, obstacles.items, containing_items(part), own),
+        ItemsAround.of(part, obstacles, clearance),
         fixed_beside(curves, placement, chosen),
         curves,
         clearance,
@@ -111,10 +111,17 @@ def _beside(
     return relaxed(chains, joins, around, progress)
 
 
-def _of(pairs: Indices, chosen: Indices) -> Indices:
-    """The pairs (k, 2) of hyperedges that are ``chosen`` (c,), renumbered as these are."""
-    rows = pairs[np.isin(pairs[:, 0], chosen)]
-    return np.stack([np.searchsorted(chosen, rows[:, 0]), rows[:, 1]], axis=1)
+def _part(placement: Placement, chosen: Indices) -> Placement:
+    """The placement with the hyperedges ``chosen`` (c,) alone."""
+    rows = rows_of(placement.attachment_starts, chosen)
+    return replace(
+        placement,
+        attachment_positions=placement.attachment_positions[rows],
+        attachment_directions=placement.attachment_directions[rows],
+        attachment_starts=starts_of(np.diff(placement.attachment_starts)[chosen]),
+        attachment_items=placement.attachment_items[rows],
+        radii=placement.radii[chosen],
+    )
 
 
 def _nothing() -> Routing:

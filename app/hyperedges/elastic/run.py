@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.arrays import Flags, Floats, Indices
-from app.hyperedges.clearance.obstacles import Obstacles
+from app.hyperedges.clearance.beside_items import ItemsAround
 from app.hyperedges.elastic.beads import Beads, Fixed, lay_beads, lines_of
 from app.hyperedges.elastic.chains import Chains
 from app.hyperedges.elastic.faults import Curves
@@ -41,14 +41,12 @@ Progress = Callable[[], None]
 class Surroundings:
     """What chains are kept clear of, and how far.
 
-    ``attached`` (k, 2), sorted: hyperedges, and items that are not obstacles to them when it is
-    proven that curves are clear. ``fixed`` and ``kept`` are the same curves, as polylines and as
-    cubics.
+    ``items`` are there to push with, ``proven`` to prove that curves are clear of them. ``fixed``
+    and ``kept`` are the same curves, as polylines and as cubics.
     """
 
     items: Items
-    obstacles: Obstacles
-    attached: Indices
+    proven: ItemsAround
     fixed: Fixed
     kept: Curves
     clearance: float

@@ -70,7 +70,6 @@ def chains_of(
         attachment_starts=starts,
         positions=positions,
         directions=directions,
-        items=placement.attachment_items[rows],
         radii=radii,
         hung=hung,
         heights=join_heights,

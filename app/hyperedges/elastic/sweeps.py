@@ -35,9 +35,7 @@ def lengthen(mended: Mended, around: Surroundings, progress: Progress) -> Routin
         sweeps = _sweeps(state, levels)
         pieces = fit(state.x, state.beads, state.chains, state.stems, sweeps, pieces, active)
         routing = routing_of(pieces, state.x, state.chains)
-        faults = find_faults(
-            routing, around.kept, around.obstacles, around.attached, around.clearance, active
-        )
+        faults = find_faults(routing, around.kept, around.proven, around.clearance, active)
         active = troubled(faults, routing, hyperedges) & (levels < len(LENGTHS) - 1)
         if not active.any():
             return routing
