@@ -145,7 +145,7 @@ def running_service(folder: Path, **settings: object) -> Iterator[Service]:
     """
     log = folder / "service.log"
     port, warm = str(settings.pop("port", 0)), settings.pop("warm", True)
-    asked = {"workers": 1} | settings
+    asked: dict[str, Any] = {"workers": 1} | settings
     environment = {f"TUBELOOM_{name.upper()}": str(value) for name, value in asked.items()}
     with log.open("wb") as sink:
         process = subprocess.Popen(
@@ -163,8 +163,7 @@ def running_service(folder: Path, **settings: object) -> Iterator[Service]:
         found = until(lambda: address.search(log.read_text()) or process.poll())
         assert isinstance(found, re.Match), log.read_text()
         service = Service(found[1], process, log)
-        with service.client() as client:
-            until(lambda: not warm or _all_warm(client), pause=0.05)
+        until(lambda: not warm or _ready(service) >= asked["workers"], pause=0.05)
         yield service
     finally:
         end(process)
@@ -181,9 +180,9 @@ def end(process: subprocess.Popen[Any]) -> None:
         raise
 
 
-def _all_warm(client: httpx.Client) -> bool:
-    workers = client.get("/readyz").json()["workers"]
-    return bool(workers["warm"] == workers["wanted"])
+def _ready(service: Service) -> int:
+    """How many workers are warm. To ask at /readyz would have one of them draw."""
+    return sum(event["event"] == "worker ready" for event in service.events())
 
 
 SMALL: dict[str, Any] = {

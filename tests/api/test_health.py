@@ -123,7 +123,10 @@ def test_what_does_not_draw_is_not_called_available(
         def found_by_a_new_worker(status: str) -> dict[str, Any]:
             for worker in service.workers():
                 worker.kill()
-            found = readiness(service, lambda found: bool(found["status"] == status))
+            found = readiness(
+                service,
+                lambda found: found["status"] == status and found["draft"]["problem"] != NOT_DRAWN,
+            )
             assert isinstance(found["draft"], dict)
             return found["draft"]
 
