@@ -99,8 +99,13 @@ class WorkerProcess:
                 if isinstance(head, Report):
                     if self._listener is not None:
                         self._listener(head, b"".join(pieces))
-                elif self._expected is not None and not self._expected.done():
-                    self._expected.set_result((head, pieces))
+                elif self._expected is not None:
+                    expected, self._expected = self._expected, None
+                    if not expected.done():
+                        expected.set_result((head, pieces))
+                    del expected
+                # An answer may have hundreds of megabytes, and the next one may be far off.
+                del head, pieces
         except (EOFError, OSError):
             pass
         finally:

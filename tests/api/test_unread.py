@@ -95,6 +95,16 @@ def test_answers_that_nobody_reads_are_few_and_go_and_so_does_their_memory(
     assert not any(event.get("level") == "error" for event in service.events())
 
 
+def test_an_answer_that_a_worker_has_made_goes_when_it_was_read(service: Service) -> None:
+    items = [{"id": str(number), "label": str(number)} for number in range(1500)]
+    with service.client() as client:
+        client.post("/v1/layout", json={"items": items[:1]}).raise_for_status()
+        before = resident(service)
+        answer = client.post("/v1/render?format=gltf", json={"items": items})
+        assert len(answer.content) > MARGIN
+        until(lambda: resident(service) < before + MARGIN / 2)
+
+
 def test_who_is_refused_is_told_when_to_come_again(service: Service) -> None:
     with ExitStack() as stack, service.client() as client:
 
