@@ -51,7 +51,9 @@ def document(draw: st.DrawFn, before: Json | None = None) -> Json:
             item.pop("parent", None)
     if before is not None and draw(st.booleans()):
         items.reverse()
-    return {"items": items, "hyperedges": list(_hyperedges(draw, items))}
+    # With a clearance, ends that share a place remember where they were (test_spreading).
+    hyperedges = list(_hyperedges(draw, items))
+    return {"items": items, "hyperedges": hyperedges, "layout": {"clearance": None}}
 
 
 def _item(draw: st.DrawFn, name: str) -> Json:
