@@ -94,7 +94,7 @@ def _not_parted(pairs: Indices, ways: Ways, limits: Floats) -> NDArray[np.bool_]
             continue
         for first, second in ((way.after, b), (a, way.before), (way.after, way.before)):
             low, high = min(first, second), max(first, second)
-            row = np.searchsorted(keys, low * count + high)
+            row = int(np.searchsorted(keys, low * count + high))
             if row < len(keys) and keys[row] == low * count + high:
                 together[k] |= together[row]
             else:

@@ -58,7 +58,7 @@ def test_the_lower_bound_never_exceeds_what_sampling_finds(
         np.array([[shift, 0.0, shift]]),
         (np.eye(3) if coarse else turned(seed))[None],
         scale * half[None],
-        scale * chance.choice([0.0, 0.5], 1),
+        scale * chance.choice([0.0, 0.5], 1).astype(np.float64),
         np.zeros(1, dtype=np.int64),
         np.zeros(1, dtype=np.bool_),
     )
