@@ -87,8 +87,8 @@ def _not_parted(pairs: Indices, ways: Ways, limits: Floats) -> NDArray[np.bool_]
         steps[k] = walk(pairs[k, 0], pairs[k, 1], ways, np.inf).steps
     together = np.zeros(len(pairs), np.bool_)
     # Whatever is nearer to the join along the way is decided before.
-    for k in np.argsort(steps, kind="mergesort"):
-        a, b = pairs[k, 0], pairs[k, 1]
+    for pair in np.argsort(steps, kind="mergesort"):
+        a, b = pairs[pair, 0], pairs[pair, 1]
         way = walk(a, b, ways, np.inf)
         if not way.forked:
             continue
@@ -96,8 +96,8 @@ def _not_parted(pairs: Indices, ways: Ways, limits: Floats) -> NDArray[np.bool_]
             low, high = min(first, second), max(first, second)
             row = int(np.searchsorted(keys, low * count + high))
             if row < len(keys) and keys[row] == low * count + high:
-                together[k] |= together[row]
+                together[pair] |= together[row]
             else:
                 within = walk(low, high, ways, limits[low])
-                together[k] |= within.forked and within.length <= limits[low]
+                together[pair] |= within.forked and within.length <= limits[low]
     return together
