@@ -131,10 +131,11 @@ class Keeper:
             running = Running(task)
             self._running[task.digest] = running
             running.work = asyncio.create_task(self._work(running))
+            running.work.add_done_callback(partial(self._free, running))
             self.listeners.tell(task.jobs, None)
 
     async def _work(self, running: Running) -> None:
-        """Work on a task until it is over, and free its place."""
+        """Work on a task until it is over."""
         try:
             await self._end(running)
         except asyncio.CancelledError:
@@ -142,10 +143,12 @@ class Keeper:
             raise
         except Exception:  # the lease runs out, and somebody takes the job up again
             log.exception("unexpected error")
-        finally:
-            if self._running.get(running.task.digest) is running:
-                del self._running[running.task.digest]
-            self._news.set()
+
+    def _free(self, running: Running, _work: asyncio.Task[None]) -> None:
+        """Free the place of a task whose work has ended, be it before its first step."""
+        if self._running.get(running.task.digest) is running:
+            del self._running[running.task.digest]
+        self._news.set()
 
     async def _end(self, running: Running) -> None:
         task = running.task
