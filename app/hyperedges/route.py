@@ -57,7 +57,7 @@ def route(
     if curves == "steiner":
         if clearance is None:
             return lay_all(placement, join_heights)
-        if not can_relax(placement):
+        if not can_relax(placement, clearance):
             routing = "planes"
         if routing == "elastic":
             return route_elastic(placement, clearance, join_heights, previous, progress)

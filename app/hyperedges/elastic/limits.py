@@ -10,19 +10,20 @@ from app.placement.placement import Placement
 MOST_BEADS = 1_000_000
 """Some gigabyte of memory."""
 
-MOST_UNLIKE = 30.0
-"""Largest radius over the smallest: beyond that, thin tubes would have too much near them."""
+WIDEST = 30.0
+"""Largest clearance over the radius of the thinnest tube: beyond that, each bead of it would have
+too many others to keep from."""
 
 
-def can_relax(placement: Placement) -> bool:
-    """Whether the hyperedges of a placement have as many beads, and are as alike, as is possible.
+def can_relax(placement: Placement, clearance: float) -> bool:
+    """Whether the hyperedges of a placement have as many beads, and as near, as is possible.
 
     The number of beads is estimated by a star from the middle of each hyperedge's attachments.
     """
     starts, radii = placement.attachment_starts, placement.radii
     if len(radii) == 0:
         return True
-    if float(radii.max()) > MOST_UNLIKE * float(radii.min()):
+    if clearance > WIDEST * float(radii.min()):
         return False
     counts = np.diff(starts)
     owners = np.repeat(np.arange(len(radii)), counts)

@@ -1,7 +1,8 @@
 """Which segments of chains may come too near to each other, or to items, within a few steps.
 
-Lists that stay valid until a bead has gone half of a *skin* (Verlet 1967). They are found with
-trees of boxes, whatever the sizes of what is in them.
+Lists that stay valid until a bead has gone half of its *skin* (Verlet 1967), which is as thick as
+its tube is: thin tubes have short lists beside thick ones. They are found with trees of boxes,
+whatever the sizes of what is in them.
 """
 
 from __future__ import annotations
@@ -73,14 +74,14 @@ def find_near(
 ) -> Near:
     """What may come too near to what moves, until a bead has gone half of ``skin``.
 
-    ``rooms`` (s,) and ``size`` as for `app.hyperedges.elastic.relaxation.relax`; ``stretch`` (c,)
-    as for `app.hyperedges.elastic.run.State`; ``moving`` (b,). Only the segments
+    ``rooms`` (s,), ``size`` and ``skin`` as for `app.hyperedges.elastic.relaxation.relax`;
+    ``stretch`` (c,) as for `app.hyperedges.elastic.run.State`; ``moving`` (b,). Only the segments
     ``among`` (k,), ascending, count, if they are given.
     """
     some = np.arange(len(beads.segments)) if among is None else among
     segments, of = beads.segments[some], beads.chains[some]
     around = np.zeros((len(some), 8))
-    reach = rooms * size + WIDER * beads.radii + 0.5 * skin
+    reach = rooms * size + (WIDER + 0.5 * skin) * beads.radii
     one, other, margin = x[segments[:, 0]], x[segments[:, 1]], reach[some][:, None]
     around[:, :3] = np.minimum(one, other) - margin
     around[:, 4:7] = np.maximum(one, other) + margin

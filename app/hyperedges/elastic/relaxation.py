@@ -85,8 +85,8 @@ def relax(
 ) -> int:
     """Take steps ``first`` to ``last`` of a run; the number of the next one.
 
-    It ends before, but not before `FEWEST` steps, where a bead has gone half of ``skin`` (in
-    document units): other things may be near it then.
+    It ends before, but not before `FEWEST` steps, where a bead has gone half of ``skin``, which is
+    in radii of its tube: other things may be near it then.
 
     ``x`` (b, 3) and what is beside it as `app.hyperedges.elastic.beads.Beads` has it; ``stems``
     (j,): which link of a join is its stem; ``bends`` (b,): least radii of curvature; ``spans``
@@ -173,9 +173,10 @@ def move(
     sums: Floats,
     weights: Floats,
 ) -> float:
-    """Move beads by the mean of their corrections; how far the farthest is from its ``start``.
+    """Move beads by the mean of their corrections.
 
-    Clears their ``sums`` (b, 3) and ``weights`` (b,); those of all other beads are 0.
+    Gives how far one is from its ``start``, at most, in radii of its tube. Clears their ``sums``
+    (b, 3) and ``weights`` (b,); those of all other beads are 0.
     """
     farthest = 0.0
     for i in moving:
@@ -190,7 +191,7 @@ def move(
         square = 0.0
         for axis in range(3):
             square += (x[i, axis] - start[i, axis]) ** 2
-        farthest = max(farthest, square)
+        farthest = max(farthest, square / thickness[i] ** 2)
         sums[i] = 0.0
         weights[i] = 0.0
     return float(np.sqrt(farthest))

@@ -17,7 +17,7 @@ from app.hyperedges.elastic.polylines import Polylines
 from app.hyperedges.elastic.relaxation import Rates, relax
 
 SKINS = (1.2, 2.4)
-"""How far apart neighbours may be, beyond what they need, over the largest radius.
+"""How far apart neighbours may be, beyond what they need, over their radii.
 
 Little where lists of neighbours last for more than `LONG` steps, more where for less than `BRIEF`.
 """
@@ -150,8 +150,7 @@ def run(
     if not may.any():
         return
     rooms = (beads.radii + 0.5 * around.clearance) * (1.0 + (slack - 1.0) * state.slack)
-    radius = float(beads.radii.max())
-    skin = SKINS[1] * radius
+    skin = SKINS[1]
     movers = np.flatnonzero(may)
     beside = may.copy()
     linked = beads.links[movers]
@@ -203,6 +202,6 @@ def run(
             ),
         )
         if step - begun > LONG:
-            skin = max(skin / 1.4, SKINS[0] * radius)
+            skin = max(skin / 1.4, SKINS[0])
         elif step - begun < BRIEF:
-            skin = min(skin * 1.4, SKINS[1] * radius)
+            skin = min(skin * 1.4, SKINS[1])

@@ -290,7 +290,7 @@ def test_beads_are_spread_and_move_by_their_mean_corrections() -> None:
         gap = x[i] + sums[i] - x[j] - sums[j]
         assert np.linalg.norm(gap) == pytest.approx(9.0)
     assert not sums[[1, 4, 5]].any()
-    thickness, low = np.full(6, 0.1), np.full(6, -0.5)
+    thickness, low = np.array([0.1, 0.1, 0.2, 0.1, 0.1, 0.1]), np.full(6, -0.5)
     moving = np.array([0, 2, 3])
     before, start = x.copy(), x - 0.25
     given = sums.copy()
@@ -298,10 +298,11 @@ def test_beads_are_spread_and_move_by_their_mean_corrections() -> None:
     expected = before.copy()
     for i in moving:
         way = OVER * given[i]
-        expected[i] += way * min(1.0, FARTHEST * 0.1 / np.linalg.norm(way))
+        expected[i] += way * min(1.0, FARTHEST * thickness[i] / np.linalg.norm(way))
         expected[i, 2] = np.clip(expected[i, 2], -0.5, 0.5)
     np.testing.assert_allclose(x, expected, atol=1e-12)
-    assert far == pytest.approx(np.linalg.norm(expected - start, axis=1)[moving].max())
+    gone = np.linalg.norm(expected - start, axis=1)[moving] / thickness[moving]
+    assert far == pytest.approx(gone.max())
     assert not sums[moving].any()
 
 

@@ -1,11 +1,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any, Literal
 
 import numpy as np
 import pytest
 
-from app.hyperedges.elastic.limits import MOST_UNLIKE, can_relax
+from app.arrays import Floats
+from app.hyperedges.elastic import neighbours, run
+from app.hyperedges.elastic.beads import Beads
+from app.hyperedges.elastic.limits import WIDEST, can_relax
+from app.hyperedges.elastic.relaxation import Near
+from app.hyperedges.elastic.route import route_elastic
 from app.hyperedges.route import route
 from app.solids.solid import Box
 from tests.hyperedges.clearance.furniture import furnished
@@ -13,20 +19,43 @@ from tests.hyperedges.clearance.furniture import furnished
 CUBE = Box((1.0, 1.0, 1.0), 0.05)
 
 
+CLEARANCE = 0.05
+
+
 def test_what_is_usual_can_be_relaxed() -> None:
-    assert can_relax(furnished([CUBE, CUBE], [[0, 0, 0], [50, 0, 0]], attachments=[[0, 1]]))
-    assert can_relax(furnished([CUBE], [[0, 0, 0]]))
+    usual = furnished([CUBE, CUBE], [[0, 0, 0], [50, 0, 0]], attachments=[[0, 1]])
+    assert can_relax(usual, CLEARANCE)
+    assert can_relax(furnished([CUBE], [[0, 0, 0]]), CLEARANCE)
 
 
 @pytest.mark.parametrize("routing", ["elastic", "auto"])
-def test_what_is_too_large_goes_in_planes(routing: str) -> None:
-    far = furnished([CUBE, CUBE], [[0, 0, 0], [1e6, 0, 0]], attachments=[[0, 1]] * 2, radius=0.01)
-    unlike = replace(
-        furnished([CUBE, CUBE], [[0, 0, 0], [9, 0, 0]], attachments=[[0, 1]] * 2),
-        radii=np.array([1.0, 0.9 / MOST_UNLIKE]),
-    )
-    for scene in (far, unlike):
-        assert not can_relax(scene)
-        found = route(scene, routing="auto" if routing == "auto" else "elastic")
-        planes = route(scene, routing="planes")
+def test_what_is_too_large_goes_in_planes(routing: Literal["elastic", "auto"]) -> None:
+    near, far = [[0.0, 0, 0], [9, 0, 0]], [[0.0, 0, 0], [1e6, 0, 0]]
+    for places, clearance in ((far, CLEARANCE), (near, 1.01 * WIDEST * 0.01)):
+        scene = furnished([CUBE, CUBE], places, attachments=[[0, 1]] * 2, radius=0.01)
+        assert not can_relax(scene, clearance)
+        found = route(scene, clearance=clearance, routing=routing)
+        planes = route(scene, clearance=clearance, routing="planes")
         np.testing.assert_array_equal(found.control_points, planes.control_points)
+
+
+def test_a_thick_tube_far_off_gives_thin_ones_no_more_neighbours(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    watched: list[int] = []
+
+    def find_near(x: Floats, beads: Beads, *rest: Any) -> Near:
+        near = neighbours.find_near(x, beads, *rest)
+        watched.append(int((beads.owners[near.pairs] < 2).all(axis=1).sum()))
+        return near
+
+    monkeypatch.setattr(run, "find_near", find_near)
+    places = [[0.0, 0, 0], [9, 0, 0], [0, 90, 0], [9, 90, 0]]
+    scene = furnished([CUBE] * 4, places, attachments=[[0, 1], [0, 1], [2, 3]])
+    first = []
+    for thick in (0.02, 0.4):
+        watched.clear()
+        unlike = replace(scene, radii=np.array([0.02, 0.02, thick]))
+        route_elastic(unlike, CLEARANCE, np.full(3, np.nan))
+        first.append(watched[0])
+    assert first[0] == first[1] > 0
