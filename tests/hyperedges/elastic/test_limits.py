@@ -30,8 +30,8 @@ def test_what_is_usual_can_be_relaxed() -> None:
 
 @pytest.mark.parametrize("routing", ["elastic", "auto"])
 def test_what_is_too_large_goes_in_planes(routing: Literal["elastic", "auto"]) -> None:
-    near, far = [[0.0, 0, 0], [9, 0, 0]], [[0.0, 0, 0], [1e6, 0, 0]]
-    for places, clearance in ((far, CLEARANCE), (near, 1.01 * WIDEST * 0.01)):
+    for far, clearance in ((1e6, CLEARANCE), (9.0, 1.01 * WIDEST * 0.01)):
+        places = [[0.0, 0.0, 0.0], [far, 0.0, 0.0]]
         scene = furnished([CUBE, CUBE], places, attachments=[[0, 1]] * 2, radius=0.01)
         assert not can_relax(scene, clearance)
         found = route(scene, clearance=clearance, routing=routing)
@@ -50,7 +50,7 @@ def test_a_thick_tube_far_off_gives_thin_ones_no_more_neighbours(
         return near
 
     monkeypatch.setattr(run, "find_near", find_near)
-    places = [[0.0, 0, 0], [9, 0, 0], [0, 90, 0], [9, 90, 0]]
+    places = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [0.0, 90.0, 0.0], [9.0, 90.0, 0.0]]
     scene = furnished([CUBE] * 4, places, attachments=[[0, 1], [0, 1], [2, 3]])
     first = []
     for thick in (0.02, 0.4):
