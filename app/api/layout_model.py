@@ -86,6 +86,12 @@ class Contact(BaseModel):
     distance: float = Field(description="Between the surfaces, a proven lower bound.")
 
 
+class Conflict(Contact):
+    """A contact that is nearer than is required."""
+
+    remedy: str = Field(description="What would make room there, in words.")
+
+
 class Overlap(BaseModel):
     """Two items that stand in each other, neither of which contains the other."""
 
@@ -116,7 +122,7 @@ class Clearance(BaseModel):
     certified: bool
     minimum: float = Field(description="No two surfaces are nearer; a proven lower bound.")
     nearest: Contact | None
-    conflicts: list[Contact]
+    conflicts: list[Conflict]
     own_contacts: list[OwnContact]
     pinches: list[Pinch]
 

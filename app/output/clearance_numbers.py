@@ -11,6 +11,8 @@ import numpy as np
 from app.hyperedges.clearance.certificate import Certificate
 from app.hyperedges.pinches import Pinches
 from app.hyperedges.routing import Routing
+from app.output.remedies import remedies
+from app.placement.placement import Placement
 from app.program.model import Program
 
 
@@ -22,7 +24,9 @@ class Verdict:
     pinches: Pinches
 
 
-def clearance_numbers(program: Program, routing: Routing, verdict: Verdict) -> dict[str, Any]:
+def clearance_numbers(
+    program: Program, placement: Placement, routing: Routing, verdict: Verdict
+) -> dict[str, Any]:
     """The verdict with ids for numbers; distances are proven lower bounds, in document units."""
     certificate = verdict.certificate
     nearest = certificate.nearest
@@ -38,7 +42,7 @@ def clearance_numbers(program: Program, routing: Routing, verdict: Verdict) -> d
             "place": list(nearest.place),
             "distance": nearest.lower,
         },
-        "conflicts": list(_conflicts(program, certificate)),
+        "conflicts": list(_conflicts(program, placement, certificate)),
         "own_contacts": [
             {"hyperedge": ids[number], "place": place, "distance": distance}
             for number, place, distance in zip(
@@ -56,16 +60,20 @@ def _names(program: Program, with_item: bool, first: int, second: int) -> dict[s
     return {"hyperedges": [*names, program.hyperedges[second].id], "item": None}
 
 
-def _conflicts(program: Program, certificate: Certificate) -> Iterator[dict[str, Any]]:
+def _conflicts(
+    program: Program, placement: Placement, certificate: Certificate
+) -> Iterator[dict[str, Any]]:
     found = certificate.conflicts
     columns = (found.with_items, found.first, found.second, found.places, found.lower)
-    for with_item, first, second, place, distance in zip(
-        *(column.tolist() for column in columns), strict=True
+    words = remedies(program, placement, found, certificate.required)
+    for with_item, first, second, place, distance, remedy in zip(
+        *(column.tolist() for column in columns), words, strict=True
     ):
         yield {
             **_names(program, with_item, first, second),
             "place": place,
             "distance": distance,
+            "remedy": remedy,
         }
 
 

@@ -39,7 +39,7 @@ def layout_numbers(
     items = b",".join(map(_json, _items(program, placement)))
     colors = _colors(program, hues)
     hyperedges = b",".join(map(_json, _hyperedges(program, placement, routing, patches, colors)))
-    clearance = None if verdict is None else clearance_numbers(program, routing, verdict)
+    clearance = None if verdict is None else clearance_numbers(program, placement, routing, verdict)
     return b'{"items":[%b],"hyperedges":[%b],"overlaps":[%b],"clearance":%b}' % (
         items,
         hyperedges,

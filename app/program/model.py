@@ -144,10 +144,10 @@ class Layout(Part):
         description="Wanted between tubes' surfaces, and from items; null: do not look.",
     )
     routing: Routing = Field(
-        "planes",
-        description="How 'steiner' curves keep clear of each other. 'planes': each hyperedge has a "
-        "height of its own. 'elastic': they are relaxed as elastic chains that push each other "
-        "apart. 'auto': elastic where that is proven clear, else whichever has fewer faults.",
+        "auto",
+        description="How 'steiner' curves keep clear of each other. 'elastic': they are relaxed as "
+        "elastic chains that push each other apart. 'planes': each hyperedge has a height of its "
+        "own. 'auto': elastic where that is proven clear, else whichever has fewer faults.",
     )
     constraints: Many[Constraint] = ()
 

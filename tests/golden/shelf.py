@@ -73,6 +73,8 @@ def document(material: str) -> dict[str, Any]:
                 "attachments": [{"item": name} for name in feet],
             }
         ],
+        # Pictures of materials are to stay as they are when routing gets better.
+        "layout": {"routing": "planes"},
         "view": {"projection": "orthographic", "from": [0.15, -1, 1.1], "margin": 0.03},
     }
 

@@ -664,7 +664,7 @@ export interface components {
             minimum: number;
             nearest: components["schemas"]["Contact"] | null;
             /** Conflicts */
-            conflicts: components["schemas"]["Contact"][];
+            conflicts: components["schemas"]["Conflict"][];
             /** Own Contacts */
             own_contacts: components["schemas"]["OwnContact"][];
             /** Pinches */
@@ -690,6 +690,32 @@ export interface components {
              * @default null
              */
             height?: number | null;
+        };
+        /**
+         * Conflict
+         * @description A contact that is nearer than is required.
+         */
+        Conflict: {
+            /** Hyperedges */
+            hyperedges: string[];
+            /** Item */
+            item: string | null;
+            /** Place */
+            place: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Distance
+             * @description Between the surfaces, a proven lower bound.
+             */
+            distance: number;
+            /**
+             * Remedy
+             * @description What would make room there, in words.
+             */
+            remedy: string;
         };
         /**
          * Connect
@@ -1701,8 +1727,8 @@ export interface components {
             clearance?: number | null;
             /**
              * Routing
-             * @description How 'steiner' curves keep clear of each other. 'planes': each hyperedge has a height of its own. 'elastic': they are relaxed as elastic chains that push each other apart. 'auto': elastic where that is proven clear, else whichever has fewer faults.
-             * @default planes
+             * @description How 'steiner' curves keep clear of each other. 'elastic': they are relaxed as elastic chains that push each other apart. 'planes': each hyperedge has a height of its own. 'auto': elastic where that is proven clear, else whichever has fewer faults.
+             * @default auto
              * @enum {string}
              */
             routing?: "planes" | "elastic" | "auto";
@@ -2316,7 +2342,7 @@ export interface components {
              *       "tube": "swept",
              *       "patch_rule": "paper",
              *       "clearance": 0.05,
-             *       "routing": "planes",
+             *       "routing": "auto",
              *       "constraints": []
              *     }
              */
