@@ -21,6 +21,7 @@ from app.placement.flat import flattened
 from app.placement.place import place
 from app.placement.placement import Placement
 from app.placement.standing import Standing
+from app.program.former import former_numbers
 from app.program.model import Program
 from app.scene.palette import palette as find_palette
 
@@ -124,7 +125,7 @@ def _hues(program: Program, previous: Layout | None) -> Indices:
     """Colours (h,) by number: those of before, and for new hyperedges the first that are free."""
     if previous is None:
         return np.arange(len(program.hyperedges))
-    numbers = _numbers(program, previous.program)
+    numbers = former_numbers(program, previous.program)
     hues = np.where(numbers < 0, -1, previous.hues[numbers] if len(previous.hues) else -1)
     free = np.setdiff1d(np.arange(len(hues)), hues, assume_unique=True)
     new = np.flatnonzero(hues < 0)
@@ -135,7 +136,7 @@ def _hues(program: Program, previous: Layout | None) -> Indices:
 def _previous(program: Program, previous: Layout) -> Previous | None:
     if _wishes(previous.program) != _wishes(program):
         return None
-    return Previous(previous.placement, previous.routing, _numbers(program, previous.program))
+    return Previous(previous.placement, previous.routing, former_numbers(program, previous.program))
 
 
 def _wishes(program: Program) -> tuple[object, ...]:
@@ -148,12 +149,4 @@ def _wishes(program: Program) -> tuple[object, ...]:
         wishes.closest,
         wishes.clearance,
         wishes.routing,
-    )
-
-
-def _numbers(program: Program, previous: Program) -> Indices:
-    """Which hyperedge of the previous program each one was, -1 for new ones."""
-    before = {hyperedge.id: number for number, hyperedge in enumerate(previous.hyperedges)}
-    return np.array(
-        [before.get(hyperedge.id, -1) for hyperedge in program.hyperedges], dtype=np.int64
     )

@@ -9,9 +9,9 @@ import numpy as np
 
 from app.arrays import Flags, Floats, Indices
 from app.grouped import rows_of, starts_of
-from app.placement.attached_before import Before, attached_before
 from app.placement.placement import Placement
 from app.placement.points import points_of
+from app.placement.previous_attachments import PreviousAttachments, previous_attachments
 from app.placement.spreading import is_spread, spread
 from app.placement.standing import Standing
 from app.placement.turning import Vector, turned
@@ -27,14 +27,14 @@ def attached(program: Program, placed: Placement, standing: Standing | None = No
     """
     counts = np.array([len(each.attachments) for each in program.hyperedges], dtype=np.int64)
     starts = starts_of(counts)
-    before = None if standing is None else attached_before(program, placed, standing)
+    before = None if standing is None else previous_attachments(program, placed, standing)
     stays = np.zeros(len(counts), dtype=np.bool_) if before is None else before.stays
     positions, directions = np.empty((starts[-1], 3)), np.empty((starts[-1], 3))
     owners = np.empty(starts[-1], dtype=np.int64)
     new = np.flatnonzero(~stays)
     if before is not None:
         rows = rows_of(starts, np.flatnonzero(stays))
-        positions[rows], directions[rows] = before.positions[rows], before.directions[rows]
+        positions[rows], directions[rows] = before.at(rows)
         owners[rows] = before.items[rows]
     if len(new):
         rows = rows_of(starts, new)
@@ -55,13 +55,15 @@ def attached(program: Program, placed: Placement, standing: Standing | None = No
     return spread(program, whole, held)
 
 
-def _followed(placement: Placement, before: Before, held: Flags) -> tuple[Placement, Flags]:
+def _followed(
+    placement: Placement, before: PreviousAttachments, held: Flags
+) -> tuple[Placement, Flags]:
     """Ends that had a place of their own have it on their items, wherever these are now."""
     positions, directions = (
         placement.attachment_positions.copy(),
         placement.attachment_directions.copy(),
     )
-    rows = np.flatnonzero(before.displaced(placement) & ~held)
+    rows = before.displaced(placement, np.flatnonzero(~held))
     positions[rows], directions[rows] = before.on_items(placement, rows)
     held = held.copy()
     held[before.known] = True

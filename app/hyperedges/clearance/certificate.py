@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
-from app.hyperedges.clearance.beside_items import ItemsAround
+from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacles import Obstacles, obstacle_gaps, obstacles_of
 from app.hyperedges.clearance.own import OwnContacts, own_contacts
 from app.hyperedges.clearance.pairs import Gaps, gaps, near_pairs

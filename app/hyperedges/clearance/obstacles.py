@@ -31,7 +31,7 @@ class Obstacles:
 
     ``centers`` (m, 3); the columns of ``rotations`` (m, 3, 3) are the boxes' axes; ``halves``
     (m, 3) half their sizes; ``roundings`` (m,): all that is nearer to a box than this belongs to it
-    (a ball is a box without size). ``items`` (m,): whose they are, ascending; ``letters`` (m,):
+    (a ball is a box without size). ``items`` (m,): whose they are, ascending; ``is_label`` (m,):
     whether they hold an item's label instead of its body.
     """
 
@@ -40,12 +40,12 @@ class Obstacles:
     halves: Floats
     roundings: Floats
     items: Indices
-    letters: NDArray[np.bool_]
+    is_label: NDArray[np.bool_]
 
     @property
     def bodies(self) -> Obstacles:
         """The boxes of the items themselves, without their labels."""
-        return self.only(np.flatnonzero(~self.letters)) if self.letters.any() else self
+        return self.only(np.flatnonzero(~self.is_label)) if self.is_label.any() else self
 
     def only(self, rows: Indices) -> Obstacles:
         """The boxes of these rows, which ascend."""
@@ -55,7 +55,7 @@ class Obstacles:
             self.halves[rows],
             self.roundings[rows],
             self.items[rows],
-            self.letters[rows],
+            self.is_label[rows],
         )
 
 

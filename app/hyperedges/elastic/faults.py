@@ -8,7 +8,7 @@ import numpy as np
 
 from app.arrays import Flags, Floats, Indices
 from app.grouped import rows_of
-from app.hyperedges.clearance.beside_items import ItemsAround
+from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacles import obstacle_gaps
 from app.hyperedges.clearance.own import own_contacts
 from app.hyperedges.clearance.pairs import gaps, near_pairs

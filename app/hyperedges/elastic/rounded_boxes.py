@@ -43,7 +43,7 @@ class Boxes(NamedTuple):
 
 def boxes_of(obstacles: Obstacles, placement: Placement) -> Boxes:
     """The boxes of ``obstacles``, which are those of ``placement``, to push with."""
-    items, is_label = obstacles.items, obstacles.letters
+    items, is_label = obstacles.items, obstacles.is_label
     halves, roundings = obstacles.halves.copy(), obstacles.roundings.copy()
     rows = np.flatnonzero(is_label)
     roundings[rows] += np.hypot(halves[rows, 1], halves[rows, 2])

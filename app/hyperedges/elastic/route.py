@@ -8,7 +8,7 @@ import numpy as np
 
 from app.arrays import Flags, Floats, Indices
 from app.grouped import rows_of, starts_of
-from app.hyperedges.clearance.beside_items import ItemsAround
+from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacles import Obstacles, obstacles_of
 from app.hyperedges.clearance.passable import containing_items, passable_items, with_parts
 from app.hyperedges.elastic.fixed import curves_of, fixed_beside

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.arrays import Flags, Floats, Indices
-from app.hyperedges.clearance.beside_items import ItemsAround
+from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.elastic.beads import Beads, Fixed, lay_beads, lines_of
 from app.hyperedges.elastic.chains import Chains
 from app.hyperedges.elastic.faults import Curves

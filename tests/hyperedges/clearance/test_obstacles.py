@@ -151,7 +151,7 @@ def test_labels_stand_where_their_items_are_turned_to() -> None:
     )
     boxes = obstacles_of(scene)
     assert boxes.items.tolist() == [0, 0]
-    assert boxes.letters.tolist() == [False, True]
+    assert boxes.is_label.tolist() == [False, True]
     assert len(boxes.bodies.items) == 1
     np.testing.assert_allclose(boxes.centers[:, 0], np.array([3.0, 3.5]), atol=1e-12)
     width, height, depth = label("word", (0.0, 0.0, 0.0)).size

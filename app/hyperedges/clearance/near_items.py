@@ -14,7 +14,7 @@ from app.hyperedges.clearance.passable import are_among, attached_items, contain
 from app.placement.placement import Placement
 
 
-class Beside(NamedTuple):
+class CurvesNearItems(NamedTuple):
     """Curves, and pairs (m, 2) of one and a box of an obstacle that may be too near.
 
     The curves are all segments, then what of some is beyond the balls about their attachments:
@@ -60,7 +60,7 @@ class ItemsAround:
         radii: Floats,
         reach: float,
         active: Flags | None = None,
-    ) -> Beside:
+    ) -> CurvesNearItems:
         """What may be nearer than ``reach`` to segments, as `near_obstacles` takes them.
 
         No hyperedge is near the labels of its own items.
@@ -72,14 +72,14 @@ class ItemsAround:
         own = are_among(named, self.attached)
         all_segments = np.arange(len(points))
         if not own.any():
-            return Beside(points, owners, radii, all_segments, pairs)
-        beside = np.flatnonzero(own & ~self.obstacles.letters[pairs[:, 1]])
+            return CurvesNearItems(points, owners, radii, all_segments, pairs)
+        beside = np.flatnonzero(own & ~self.obstacles.is_label[pairs[:, 1]])
         pieces, rows = beyond_own_balls(
             points[pairs[beside, 0]], named[beside], self.placement, self.balls
         )
         segments, boxes = pairs[beside[rows]].T
         numbers = len(points) + np.arange(len(pieces))
-        return Beside(
+        return CurvesNearItems(
             np.concatenate([points, pieces]),
             np.concatenate([owners, owners[segments]]),
             np.concatenate([radii, radii[segments]]),
