@@ -12,9 +12,9 @@ from app.arrays import Floats, Indices
 from app.hyperedges.clearance.certificate import certify
 from app.hyperedges.flat import route_flat
 from app.hyperedges.pinches import find_pinches
+from app.hyperedges.previous import Previous
 from app.hyperedges.route import route
 from app.hyperedges.routing import Routing
-from app.hyperedges.woven import Previous
 from app.notations.loader import load_notation
 from app.output.clearance_numbers import Verdict
 from app.placement.flat import flattened

@@ -42,6 +42,7 @@ def write_layout(layout: Layout) -> bytes:
     file = io.BytesIO()
     arrays = {name: getattr(layout.placement, name) for name in PLACES + ENDS}
     arrays |= {f"routing_{name}": getattr(layout.routing, name) for name in CURVES}
+    arrays["is_elastic"] = np.array(layout.routing.is_elastic)
     np.savez(file, form=FORM, hues=layout.hues, **arrays)
     return file.getvalue()
 
@@ -51,7 +52,8 @@ def read_layout(program: Program, data: bytes) -> Layout | None:
     try:
         arrays = _arrays(data)
         standing = Standing(program, *(arrays[name] for name in PLACES))
-        routing = Routing(**{name: arrays[f"routing_{name}"] for name in CURVES})
+        curves: dict[str, Any] = {name: arrays[f"routing_{name}"] for name in CURVES}
+        routing = Routing(**curves, is_elastic=bool(arrays.get("is_elastic", False)))
         hues, form = arrays["hues"], arrays["form"]
         positions, directions = (arrays[name] for name in ENDS)
     except (KeyError, ValueError, OSError, EOFError, BadZipFile, zlib.error):

@@ -8,14 +8,21 @@ import numpy as np
 
 from app.arrays import Floats
 from app.hyperedges.curves import join_starts, lay_out, segment_starts
-from app.hyperedges.elastic.choice import route_clear
 from app.hyperedges.elastic.limits import can_relax
-from app.hyperedges.elastic.route import route_elastic
+from app.hyperedges.elastic.route import elastic_router
 from app.hyperedges.join_planes import choose_join_planes
+from app.hyperedges.previous import Previous, known_planes
+from app.hyperedges.rerouting import Progress, reroute
 from app.hyperedges.routing import Routing
-from app.hyperedges.weaving.weave import Progress
-from app.hyperedges.woven import Previous, known_planes, lay_all, weave_all
+from app.hyperedges.woven import lay_all, plane_router
 from app.placement.placement import Placement
+
+ROUTERS = {
+    "planes": (plane_router,),
+    "elastic": (elastic_router,),
+    "auto": (elastic_router, plane_router),
+}
+"""The routers of each kind of routing, the first of which is preferred."""
 
 
 def route(
@@ -57,13 +64,11 @@ def route(
     if curves == "steiner":
         if clearance is None:
             return lay_all(placement, join_heights)
-        if not can_relax(placement, clearance):
-            routing = "planes"
-        if routing == "elastic":
-            return route_elastic(placement, clearance, join_heights, previous, progress)
-        if routing == "auto":
-            return route_clear(placement, clearance, join_heights, previous, progress)
-        return weave_all(placement, clearance, join_heights, previous, progress)
+        kinds = ROUTERS[routing] if can_relax(placement, clearance) else ROUTERS["planes"]
+        if routing == "auto" and not np.isnan(join_heights).all():
+            kinds = ROUTERS["planes"]
+        routers = [kind(placement, clearance, join_heights) for kind in kinds]
+        return reroute(placement, clearance, join_heights, routers, previous, progress)
     join_planes = choose_join_planes(placement, clearance, join_heights)
     laid = lay_out(
         placement.attachment_positions,

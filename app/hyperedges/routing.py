@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import Floats, Indices
+from app.grouped import rows_of, starts_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,7 +24,8 @@ class Routing:
     begins and ends at, numbered within its hyperedge: 0 to N - 1 are its attachments in the order
     of the document, then come its joins (the paper's in the order in which CURVES makes them) and
     its bends. ``join_positions`` (j, 3); ``join_tangents`` (j, 3), unit vectors common to all
-    segments of a join. ``join_planes`` (h,), world z. ``radii`` (h,).
+    segments of a join. ``join_planes`` (h,), world z. ``radii`` (h,). ``is_elastic``: whether the
+    curves were found by relaxation, and so are those of what an edit adds.
     """
 
     control_points: Floats
@@ -34,6 +36,22 @@ class Routing:
     join_starts: Indices
     join_planes: Floats
     radii: Floats
+    is_elastic: bool = False
+
+    @staticmethod
+    def nothing() -> Routing:
+        """Of no hyperedges."""
+        none, places = np.zeros(1, dtype=np.int64), np.zeros((0, 3))
+        return Routing(
+            control_points=np.zeros((0, 4, 3)),
+            segment_starts=none,
+            segment_ends=np.zeros((0, 2), dtype=np.int64),
+            join_positions=places,
+            join_tangents=places,
+            join_starts=none,
+            join_planes=np.zeros(0),
+            radii=np.zeros(0),
+        )
 
     @property
     def attachment_counts(self) -> Indices:
@@ -42,22 +60,16 @@ class Routing:
 
     def part(self, hyperedges: Indices) -> Routing:
         """The routing of ``hyperedges`` (k,) alone, in that order."""
-        segments, segment_starts = _gathered(self.segment_starts, hyperedges)
-        joins, join_starts = _gathered(self.join_starts, hyperedges)
+        segments = rows_of(self.segment_starts, hyperedges)
+        joins = rows_of(self.join_starts, hyperedges)
         return Routing(
             control_points=self.control_points[segments],
-            segment_starts=segment_starts,
+            segment_starts=starts_of(np.diff(self.segment_starts)[hyperedges]),
             segment_ends=self.segment_ends[segments],
             join_positions=self.join_positions[joins],
             join_tangents=self.join_tangents[joins],
-            join_starts=join_starts,
+            join_starts=starts_of(np.diff(self.join_starts)[hyperedges]),
             join_planes=self.join_planes[hyperedges],
             radii=self.radii[hyperedges],
+            is_elastic=self.is_elastic,
         )
-
-
-def _gathered(starts: Indices, groups: Indices) -> tuple[Indices, Indices]:
-    """The members of some ``groups`` (k,), one group after another, and where each begins."""
-    counts = starts[groups + 1] - starts[groups]
-    begins = np.concatenate([[0], np.cumsum(counts)])
-    return np.repeat(starts[groups] - begins[:-1], counts) + np.arange(begins[-1]), begins

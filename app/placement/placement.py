@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from app.arrays import Floats, Indices
+from app.grouped import rows_of, starts_of
 from app.solids.solid import Size, Solid, Text
 
 
@@ -50,3 +51,15 @@ class Placement:
     parents: Indices = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     offsets: Floats = field(default_factory=lambda: np.empty((0, 3)))
     turns: Floats = field(default_factory=lambda: np.empty((0, 4)))
+
+    def of_hyperedges(self, hyperedges: Indices) -> Placement:
+        """All items, and the attachments of ``hyperedges`` (k,) alone, in that order."""
+        rows = rows_of(self.attachment_starts, hyperedges)
+        return replace(
+            self,
+            attachment_positions=self.attachment_positions[rows],
+            attachment_directions=self.attachment_directions[rows],
+            attachment_starts=starts_of(np.diff(self.attachment_starts)[hyperedges]),
+            attachment_items=self.attachment_items[rows],
+            radii=self.radii[hyperedges],
+        )

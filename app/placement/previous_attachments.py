@@ -47,7 +47,8 @@ class PreviousAttachments:
         ends = ends[self.known[ends]]
         items = placement.attachment_items[ends]
         now = _in_axes(placement.attachment_positions[ends], placement, items)
-        return ends[np.abs(now - self._local(ends)).max(axis=1, initial=0.0) > AT_THE_POINT]
+        away = np.abs(now - self._local(ends)).max(axis=1, initial=0.0)
+        return np.asarray(ends[away > AT_THE_POINT])
 
     def on_items(self, placement: Placement, ends: Indices) -> tuple[Floats, Floats]:
         """Positions and directions (e, 3) of known ``ends`` on their items as these are now."""

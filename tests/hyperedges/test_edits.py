@@ -1,47 +1,13 @@
 from __future__ import annotations
 
 import copy
-import json
-from typing import Any
 
 import numpy as np
 
-from app.hyperedges.clearance.certificate import certify
-from app.layout import Layout, lay_out
-from app.program.reading import read_program
-from app.settings import Settings
 from benchmarks.random_programs import random_program
+from tests.hyperedges.layouts import assert_clear, ids, laid, same
 
 DOCUMENT = random_program(40, 0, "local").document()
-
-
-def laid(document: dict[str, Any], previous: Layout | None = None) -> Layout:
-    return lay_out(read_program(json.dumps(document).encode(), Settings()), previous)
-
-
-def same(before: Layout, after: Layout) -> set[str]:
-    """Ids of the hyperedges whose control points are equal to the bit."""
-
-    def curves(layout: Layout) -> dict[str, bytes]:
-        starts = layout.routing.segment_starts.tolist()
-        points = layout.routing.control_points
-        return {
-            hyperedge.id: points[begin:end].tobytes()
-            for hyperedge, begin, end in zip(
-                layout.program.hyperedges, starts[:-1], starts[1:], strict=True
-            )
-        }
-
-    old, new = curves(before), curves(after)
-    return {one for one in old.keys() & new.keys() if old[one] == new[one]}
-
-
-def assert_clear(layout: Layout) -> None:
-    assert certify(layout.routing, layout.placement, 0.05).certified
-
-
-def ids(document: dict[str, Any]) -> list[str]:
-    return [hyperedge["id"] for hyperedge in document["hyperedges"]]
 
 
 def test_one_hyperedge_more_leaves_the_others_as_they_are() -> None:

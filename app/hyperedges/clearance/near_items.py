@@ -33,7 +33,8 @@ class ItemsAround:
     """The items of a placement as its hyperedges have to do with them.
 
     ``attached`` and ``containing`` (k, 2) name hyperedges with items of their own and with what
-    contains these; ``balls`` (a,) are radii about attachments within which the former do not count.
+    contains these; ``balls`` (a,) are radii about attachments within which the former do not count,
+    for curves that keep a ``clearance``.
     """
 
     obstacles: Obstacles
@@ -41,6 +42,7 @@ class ItemsAround:
     attached: Indices
     containing: Indices
     balls: Floats
+    clearance: float
 
     @classmethod
     def of(cls, placement: Placement, obstacles: Obstacles, clearance: float) -> ItemsAround:
@@ -51,6 +53,7 @@ class ItemsAround:
             attached_items(placement),
             containing_items(placement),
             leaving_radii(placement, obstacles.bodies, clearance),
+            clearance,
         )
 
     def near(

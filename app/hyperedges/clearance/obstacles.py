@@ -44,8 +44,8 @@ class Obstacles:
 
     @property
     def bodies(self) -> Obstacles:
-        """The boxes of the items themselves, without their labels."""
-        return self.only(np.flatnonzero(~self.is_label)) if self.is_label.any() else self
+        """The boxes of the items themselves, without their labels: always the same arrays."""
+        return _bodies(self)
 
     def only(self, rows: Indices) -> Obstacles:
         """The boxes of these rows, which ascend."""
@@ -57,6 +57,13 @@ class Obstacles:
             self.items[rows],
             self.is_label[rows],
         )
+
+
+@lru_cache(maxsize=4)
+def _bodies(obstacles: Obstacles) -> Obstacles:
+    if not obstacles.is_label.any():
+        return obstacles
+    return obstacles.only(np.flatnonzero(~obstacles.is_label))
 
 
 def obstacles_of(placement: Placement) -> Obstacles:

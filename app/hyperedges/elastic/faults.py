@@ -30,14 +30,16 @@ class Faults:
     """Places where curves are too near, and segments that bend too much.
 
     ``segments`` (n,) come too near; ``others`` (n,): to which other segment, those that are kept
-    behind those that move, or -1 for an item. ``places`` (n, 3) are halfway, ``ways`` (n, 3) unit
-    vectors from the other one to the segment (0 at items), ``lower`` (n,) bounds of the distance.
+    behind those that move, or -1 for an item; ``items`` (n,): to which item, or -1.
+    ``places`` (n, 3) are halfway, ``ways`` (n, 3) unit vectors from the other one to the segment (0
+    at items), ``lower`` (n,) bounds of the distance.
     ``pinched`` (p,) segments; ``own`` (k,) hyperedges that touch themselves, at ``own_places``
     (k, 3). ``hit`` (m,): kept hyperedges, by their owners' numbers.
     """
 
     segments: Indices
     others: Indices
+    items: Indices
     places: Floats
     ways: Floats
     lower: Floats
@@ -85,6 +87,9 @@ def find_faults(
     return Faults(
         segments=np.concatenate([pairs[:, 0], near.segments[near.pairs[close, 0]]]),
         others=np.concatenate([pairs[:, 1], np.full(int(close.sum()), -1)]),
+        items=np.concatenate(
+            [np.full(len(pairs), -1), around.obstacles.items[near.pairs[close, 1]]]
+        ),
         places=np.concatenate([places, beside.places[close]]),
         ways=np.concatenate([_ways(points, pairs, at), np.zeros((int(close.sum()), 3))]),
         lower=np.concatenate([lower, beside.lower[close]]),

@@ -9,7 +9,7 @@ import pytest
 from app.hyperedges.pinches import find_pinches
 from benchmarks.random_in_space import random_in_space
 from benchmarks.random_programs import random_program
-from tests.hyperedges.test_edits import assert_clear, ids, laid, same
+from tests.hyperedges.layouts import assert_clear, ids, laid, same
 
 GROUND = random_program(40, 0, "local").document(routing="elastic")
 SPACE = random_in_space(20, 0, "local").document(routing="elastic")

@@ -1,0 +1,228 @@
+"""Routing after an edit: hyperedges keep their curves unless these are in the way of what is new.
+
+How curves are found is a router's business (`app.hyperedges.woven`,
+`app.hyperedges.elastic.route`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from app.arrays import Flags, Floats, Indices
+from app.grouped import rows_of
+from app.hyperedges.clearance.near_items import ItemsAround
+from app.hyperedges.clearance.obstacles import obstacles_of
+from app.hyperedges.elastic.faults import find_faults
+from app.hyperedges.elastic.fixed import curves_of
+from app.hyperedges.joining import merge
+from app.hyperedges.previous import Previous, keepable
+from app.hyperedges.routing import Routing
+from app.placement.placement import Placement
+
+HITS = 3
+"""How often hyperedges that an edit hits are routed anew with it, before all are, if that helps."""
+
+Progress = Callable[[float], None]
+"""Told which share of the work is done at least, from 0 to 1. May raise to end it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Routed:
+    """Curves of some hyperedges, and whether it is proven that nothing is wrong with them."""
+
+    routing: Routing
+    is_proven: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Router:
+    """A way to find curves, by relaxation if it ``is_elastic``.
+
+    ``route(chosen, others, progress)`` makes curves of the hyperedges of the numbers ``chosen``
+    (c,), ascending, beside those of all ``others``, in the order of their numbers.
+    """
+
+    is_elastic: bool
+    route: Callable[[Indices, Routing, Progress], Routed]
+
+
+class Count(NamedTuple):
+    """Pairs of hyperedges, or of a hyperedge and an item, that are too near to each other.
+
+    And ``others``: segments that pinch, and hyperedges that touch themselves. Fewer conflicts count
+    more than fewer of these.
+    """
+
+    conflicts: int
+    others: int
+
+    def plus(self, more: Count) -> Count:
+        """Both together."""
+        return Count(self.conflicts + more.conflicts, self.others + more.others)
+
+
+NONE = Count(0, 0)
+
+
+def reroute(
+    placement: Placement,
+    clearance: float,
+    join_heights: Floats,
+    routers: Sequence[Router],
+    previous: Previous | None = None,
+    progress: Progress = lambda _share: None,
+) -> Routing:
+    """Curves of all hyperedges, by the first of ``routers`` that leaves no faults.
+
+    Else by the one that leaves the fewest. Hyperedges of a ``previous`` layout keep their curves to
+    the last bit, whichever router made them, unless their attachments moved, or they are in the way
+    of what is new; what that comes too near to is routed anew with it. The router that made the
+    previous layout comes first then. ``join_heights`` (h,) are join planes that are asked for, NaN
+    where none is.
+
+    Where conflicts are left at last, all hyperedges are routed anew, if that leaves fewer; by
+    another router than that of the previous layout only if it leaves none.
+    """
+    kept = np.zeros(len(placement.radii), dtype=np.bool_)
+    if previous is not None:
+        kept = keepable(placement, clearance, join_heights, previous)
+        if kept.all():
+            return previous.routing.part(previous.numbers)
+    if previous is None or not kept.any():
+        return _Routing(placement, clearance, tuple(routers), None, progress).best(kept).routing
+    is_elastic = previous.routing.is_elastic
+    by_kind = tuple(sorted(routers, key=lambda router: router.is_elastic != is_elastic))
+    work = _Routing(placement, clearance, by_kind, previous, progress)
+    best = latest = work.best(kept)
+    least = best.faults
+    for attempt in range(1, HITS + 1):
+        hit = latest.hit[~ending_together(placement, latest.hit, latest.kept)]
+        if len(hit) == 0:
+            break
+        kept = latest.kept.copy()
+        kept[hit] = False
+        if attempt == HITS or not kept.any():
+            hit, kept = np.flatnonzero(latest.kept), np.zeros_like(kept)
+        # Where the best curves so far keep those of what is hit, they keep their faults too.
+        least = least.plus(work.faults_before(hit, kept))
+        latest = work.best(kept) if kept.any() else work.whole(least)
+        if latest.faults < least:
+            best, least = latest, latest.faults
+    return best.routing if not best.kept.any() else work.with_kept(best)
+
+
+def ending_together(placement: Placement, hit: Indices, kept: Flags) -> Flags:
+    """Which of the hyperedges ``hit`` (m,) end where one does that is not ``kept`` (h,).
+
+    They touch there however they run: to route them anew would move them for nothing.
+    """
+    starts = placement.attachment_starts
+    places = np.ascontiguousarray(placement.attachment_positions).view("V24").ravel()
+    rows = rows_of(starts, hit)
+    shared = np.isin(places[rows], places[rows_of(starts, np.flatnonzero(~kept))])
+    counts = np.diff(starts)[hit]
+    found = np.zeros(len(hit), dtype=np.bool_)
+    found[np.repeat(np.arange(len(hit)), counts)[shared]] = True
+    return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Made:
+    """Curves of all hyperedges but those ``kept`` (h,); their faults; which of those are ``hit``.
+
+    ``hit`` (m,) are numbers of hyperedges.
+    """
+
+    routing: Routing
+    kept: Flags
+    faults: Count
+    hit: Indices
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Routing:
+    """What is routed, and how."""
+
+    placement: Placement
+    clearance: float
+    routers: tuple[Router, ...]
+    previous: Previous | None
+    progress: Progress
+
+    def best(self, kept: Flags) -> _Made:
+        """The best curves that a router finds beside those ``kept`` (h,)."""
+        best: _Made | None = None
+        for number in range(len(self.routers)):
+            made = self._made(number, kept)
+            if best is None or made.faults < best.faults:
+                best = made
+            if best.faults == NONE:
+                break
+        assert best is not None, "there is one router at least"  # noqa: S101
+        return best
+
+    def whole(self, least: Count) -> _Made:
+        """Curves of all hyperedges, by the first router, or by another that leaves no conflicts.
+
+        ``least`` are the faults without that.
+        """
+        kept = np.zeros(len(self.placement.radii), dtype=np.bool_)
+        best = self._made(0, kept)
+        for number in range(1, len(self.routers)):
+            if min(best.faults, least).conflicts == 0:
+                break
+            made = self._made(number, kept)
+            if made.faults.conflicts == 0:
+                best = made
+        return best
+
+    def faults_before(self, hyperedges: Indices, kept: Flags) -> Count:
+        """Faults that old curves of ``hyperedges`` (k,) have, beside those ``kept`` (h,)."""
+        return self._faults(hyperedges, kept, self._old(hyperedges))[0]
+
+    def with_kept(self, made: _Made) -> Routing:
+        """What was made and what is kept, in the order of their numbers."""
+        chosen, others = np.flatnonzero(~made.kept), np.flatnonzero(made.kept)
+        return merge(self._old(others), made.routing, np.concatenate([others, chosen]))
+
+    def _made(self, number: int, kept: Flags) -> _Made:
+        router = self.routers[number]
+        chosen, others = np.flatnonzero(~kept), np.flatnonzero(kept)
+
+        def progress(share: float) -> None:
+            self.progress((number + share) / len(self.routers))
+
+        routed = router.route(chosen, self._old(others), progress)
+        routing = replace(routed.routing, is_elastic=router.is_elastic)
+        faults, hit = NONE, np.zeros(0, dtype=np.int64)
+        if not routed.is_proven and (self.previous is not None or len(self.routers) > 1):
+            faults, hit = self._faults(chosen, kept, routing)
+        return _Made(routing, kept, faults, hit)
+
+    def _old(self, hyperedges: Indices) -> Routing:
+        if self.previous is None:
+            return Routing.nothing()
+        return self.previous.routing.part(self.previous.numbers[hyperedges])
+
+    def _faults(self, hyperedges: Indices, kept: Flags, routing: Routing) -> tuple[Count, Indices]:
+        """What is wrong with curves of ``hyperedges`` (k,), and the others that they come too near.
+
+        Beside those that are ``kept`` (h,).
+        """
+        part = self.placement.of_hyperedges(hyperedges)
+        around = ItemsAround.of(part, obstacles_of(self.placement).bodies, self.clearance)
+        others = np.flatnonzero(kept)
+        curves = curves_of(self._old(others), len(hyperedges))
+        active = np.ones(len(hyperedges), dtype=np.bool_)
+        found = find_faults(routing, curves, around, self.clearance, active)
+        count = len(hyperedges) + len(others)
+        owners = np.repeat(np.arange(len(hyperedges)), np.diff(routing.segment_starts))
+        owners = np.concatenate([owners, curves.owners])
+        second = np.where(found.others < 0, count + found.items, owners[found.others])
+        pairs = np.unique(np.stack([owners[found.segments], second], axis=1), axis=0)
+        numbers = Count(len(pairs), len(found.pinched) + len(found.own))
+        return numbers, others[found.hit - len(hyperedges)]
