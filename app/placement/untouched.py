@@ -91,7 +91,9 @@ def _placed_as(item: Item, number: int, before: Sequence[Item]) -> int:
     if number < 0:
         return -1
     other = before[number]
-    return number if item is other or _without_looks(item) == _without_looks(other) else -1
+    if item is other or item == other or _without_looks(item) == _without_looks(other):
+        return number
+    return -1
 
 
 def _without_looks(item: Item) -> Item:

@@ -173,20 +173,36 @@ def near_obstacles(
     """
     if len(control_points) == 0 or len(obstacles.items) == 0:
         return np.zeros((0, 2), dtype=np.int64)
-    reach = np.einsum("kij,kj->ki", np.abs(obstacles.rotations), obstacles.halves)
-    reach += (obstacles.roundings + ROUNDING * float(np.abs(obstacles.centers).max()))[:, None]
-    nothing = np.zeros((len(obstacles.items), 1))
-    theirs = np.hstack([obstacles.centers - reach, nothing, obstacles.centers + reach, nothing])
     asking = np.arange(len(owners)) if active is None else np.flatnonzero(active)
-    ours = boxes(control_points, radii + clearance)
+    if len(asking) == 0:
+        return np.zeros((0, 2), dtype=np.int64)
+    ours = boxes(control_points[asking], radii[asking] + clearance)
+    all_theirs = _boxes_around(obstacles)
+    meets = (all_theirs[:, :3] <= ours[:, 4:7].max(axis=0)) & (
+        all_theirs[:, 4:7] >= ours[:, :3].min(axis=0)
+    )
+    within_reach = np.flatnonzero(meets[:, 0] & meets[:, 1] & meets[:, 2])
+    if len(within_reach) == 0:
+        return np.zeros((0, 2), dtype=np.int64)
+    theirs, numbers = all_theirs[within_reach], np.arange(len(asking))
     if len(asking) * len(theirs) <= FEW:
-        found = meeting_with(ours, asking, theirs)
+        found = meeting_with(ours, numbers, theirs)
     else:
         # No two groups are equal: the pairs that are passable are taken out below.
         strangers = np.full(len(theirs), -1)
-        found = meeting(plant(theirs), ours, asking, (owners, strangers))
+        found = meeting(plant(theirs), ours, numbers, (owners[asking], strangers))
+    found = np.stack([asking[found[:, 0]], within_reach[found[:, 1]]], axis=1)
     named = np.stack([owners[found[:, 0]], obstacles.items[found[:, 1]]], axis=1)
     return np.asarray(found[~are_among(named, passable)])
+
+
+@lru_cache(maxsize=4)
+def _boxes_around(obstacles: Obstacles) -> Floats:
+    """Boxes (m, 8) along the axes around those of obstacles, as `meeting` takes them."""
+    reach = np.einsum("kij,kj->ki", np.abs(obstacles.rotations), obstacles.halves)
+    reach += (obstacles.roundings + ROUNDING * float(np.abs(obstacles.centers).max()))[:, None]
+    nothing = np.zeros((len(obstacles.items), 1))
+    return np.hstack([obstacles.centers - reach, nothing, obstacles.centers + reach, nothing])
 
 
 def obstacle_gaps(

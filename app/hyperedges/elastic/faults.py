@@ -7,22 +7,30 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import Flags, Floats, Indices
-from app.grouped import rows_of
 from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacles import obstacle_gaps
 from app.hyperedges.clearance.own import own_contacts
-from app.hyperedges.clearance.pairs import gaps, near_pairs
+from app.hyperedges.clearance.pairs import boxes, gaps, near_pairs
 from app.hyperedges.pinches import find_pinches
 from app.hyperedges.routing import Routing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Curves:
-    """Curves that are kept: ``points`` (g, 4, 3), ``owners`` and ``radii`` (g,)."""
+    """Curves that are kept: ``points`` (g, 4, 3), ``owners`` and ``radii`` (g,).
+
+    ``boxes`` (g, 8) are around their tubes, as those of `app.hyperedges.clearance.pairs.boxes`.
+    """
 
     points: Floats
     owners: Indices
     radii: Floats
+    boxes: Floats
+
+    @staticmethod
+    def of(points: Floats, owners: Indices, radii: Floats) -> Curves:
+        """With their boxes."""
+        return Curves(points, owners, radii, boxes(points, radii))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,10 +72,19 @@ def find_faults(
     """The faults of the hyperedges ``active`` (h,), and of others with them and with items."""
     count = len(routing.control_points)
     owners = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
-    asked = np.concatenate([active[owners], np.zeros(len(kept.owners), dtype=np.bool_)])
-    points = np.ascontiguousarray(np.concatenate([routing.control_points, kept.points]))
-    radii = np.concatenate([routing.radii[owners], kept.radii])
-    owners = np.concatenate([owners, kept.owners])
+    moving = Curves.of(routing.control_points, owners, routing.radii[owners])
+    asking = np.flatnonzero(active[owners])
+    rows = _within_reach(moving, kept, asking, clearance)
+    points, owners, radii = (
+        np.concatenate([here[rows[rows < count]], there[rows[rows >= count] - count]])
+        for here, there in (
+            (moving.points, kept.points),
+            (moving.owners, kept.owners),
+            (moving.radii, kept.radii),
+        )
+    )
+    asked = np.zeros(len(rows), dtype=np.bool_)
+    asked[np.searchsorted(rows, asking)] = True
     pairs = near_pairs(points, owners, radii, clearance, asked)
     found = gaps(points, radii, pairs, clearance)
     close = found.lower < clearance
@@ -77,27 +94,45 @@ def find_faults(
         found.lower[close],
         found.places[close],
     )
-    near = around.near(points, owners, radii, clearance, asked)
+    hit = np.unique(owners[pairs[rows[pairs[:, 1]] >= count, 1]])
+    ways = _ways(points, pairs, at)
+    pairs = rows[pairs]
+    near = around.near(
+        moving.points[asking], moving.owners[asking], moving.radii[asking], clearance
+    )
     beside = obstacle_gaps(near.points, near.radii, around.obstacles, near.pairs, clearance)
     close = beside.lower < clearance
     part = np.flatnonzero(active)
     some = routing.part(part)
     own = own_contacts(some)
-    rows = rows_of(routing.segment_starts, part)
     return Faults(
-        segments=np.concatenate([pairs[:, 0], near.segments[near.pairs[close, 0]]]),
+        segments=np.concatenate([pairs[:, 0], asking[near.segments[near.pairs[close, 0]]]]),
         others=np.concatenate([pairs[:, 1], np.full(int(close.sum()), -1)]),
         items=np.concatenate(
             [np.full(len(pairs), -1), around.obstacles.items[near.pairs[close, 1]]]
         ),
         places=np.concatenate([places, beside.places[close]]),
-        ways=np.concatenate([_ways(points, pairs, at), np.zeros((int(close.sum()), 3))]),
+        ways=np.concatenate([ways, np.zeros((int(close.sum()), 3))]),
         lower=np.concatenate([lower, beside.lower[close]]),
-        pinched=rows[find_pinches(some).segments],
+        pinched=asking[find_pinches(some).segments],
         own=part[own.hyperedges],
         own_places=own.places,
-        hit=np.unique(owners[pairs[pairs[:, 1] >= count, 1]]),
+        hit=hit,
     )
+
+
+def _within_reach(moving: Curves, kept: Curves, asking: Indices, clearance: float) -> Indices:
+    """Which curves, those ``kept`` behind those ``moving``, meet the box around some: ascending.
+
+    Around those ``asking`` (k,) and ``clearance`` from them.
+    """
+    around = np.concatenate([moving.boxes, kept.boxes])
+    if len(asking) == 0:
+        return asking
+    low = moving.boxes[asking, :3].min(axis=0) - clearance
+    high = moving.boxes[asking, 4:7].max(axis=0) + clearance
+    meets = (around[:, :3] <= high) & (around[:, 4:7] >= low)
+    return np.flatnonzero(meets[:, 0] & meets[:, 1] & meets[:, 2])
 
 
 def _ways(points: Floats, pairs: Indices, at: Floats) -> Floats:

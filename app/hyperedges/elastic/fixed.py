@@ -7,7 +7,6 @@ import numpy as np
 from app.arrays import Floats, Indices
 from app.grouped import rows_of, starts_of
 from app.hyperedges.clearance.box_tree import meeting, plant
-from app.hyperedges.clearance.pairs import boxes
 from app.hyperedges.elastic.beads import Fixed
 from app.hyperedges.elastic.faults import Curves
 from app.hyperedges.routing import Routing
@@ -25,7 +24,7 @@ BESIDE, MARGIN = 0.5, 20.0
 def curves_of(kept: Routing, hyperedges: int) -> Curves:
     """The curves of ``kept`` hyperedges, which are numbered from ``hyperedges`` on."""
     owners = np.repeat(np.arange(len(kept.radii)), np.diff(kept.segment_starts))
-    return Curves(kept.control_points, owners + hyperedges, kept.radii[owners])
+    return Curves.of(kept.control_points, owners + hyperedges, kept.radii[owners])
 
 
 def fixed_beside(curves: Curves, placement: Placement, chosen: Indices) -> Fixed:
@@ -56,6 +55,6 @@ def _beside(curves: Curves, placement: Placement, chosen: Indices) -> Indices:
     asked = np.zeros((len(chosen), 8))
     asked[:, :3], asked[:, 4:7] = lows - reach[:, None], highs + reach[:, None]
     numbers = np.arange(len(chosen))
-    tree = plant(boxes(curves.points, curves.radii))
+    tree = plant(curves.boxes)
     found = meeting(tree, asked, numbers, (numbers, np.full(len(curves.owners), -1)))
     return np.unique(found[:, 1])

@@ -88,15 +88,24 @@ def find_near(
     asked = moving[segments[:, 0]] | moving[segments[:, 1]]
     pairs = np.zeros((0, 2), dtype=np.int64)
     if asked.any():
-        tree = plant(around)
-        asking = tree.order[asked[tree.order]]
-        pairs = some[meeting(tree, around, asking, (of, of), asked)]
+        beside = _within_reach(around, asked)
+        boxes, asking, of = around[beside], asked[beside], of[beside]
+        tree = plant(boxes)
+        order = tree.order[asking[tree.order]]
+        pairs = some[beside[meeting(tree, boxes, order, (of, of), asking)]]
         pairs = pairs[within(x, beads.segments, pairs, reach)]
         pairs = pairs[~_beside_a_join(pairs, beads)]
     rows = np.flatnonzero(asked)
     near, exempt = _near_items(x, around[rows], some[rows], beads, chains, items, clearance)
     apart, distances = _apart(chains, stretch)
     return Near(pairs, near, exempt, apart, distances)
+
+
+def _within_reach(around: Floats, asked: Flags) -> Indices:
+    """Which boxes (k, 8) meet the one around all that are ``asked`` for (k,)."""
+    low, high = around[asked, :3].min(axis=0), around[asked, 4:7].max(axis=0)
+    meets = (around[:, :3] <= high) & (around[:, 4:7] >= low)
+    return np.flatnonzero(meets[:, 0] & meets[:, 1] & meets[:, 2])
 
 
 def _beside_a_join(pairs: Indices, beads: Beads) -> Flags:

@@ -37,7 +37,7 @@ MOST_STRETCH = 2.5
 WIDER, MOST_WIDER = 1.2, 2.5
 
 LARGE = 2000
-"""Segments above which only beads near to what is wrong move."""
+"""Segments that may move above which only beads near to what is wrong move."""
 
 NEIGHBOURHOOD = 6.0
 """How near that is, in distances of beads."""
@@ -214,7 +214,7 @@ def _stretch(state: State, pieces: Pieces, pinched: Indices) -> None:
 def _near(state: State, faults: Faults, routing: Routing) -> Part | None:
     """What is near to what is wrong, and may move; None for all."""
     beads = state.beads
-    if len(beads.segments) <= LARGE:
+    if int(beads.segment_starts[-1]) <= LARGE:
         return None
     places = np.concatenate(
         [faults.places, routing.control_points[faults.pinched, 0], faults.own_places]
