@@ -1,6 +1,7 @@
 """Runs all benchmarks and prints their tables as Markdown: ``python -m benchmarks [FILE …]``.
 
-Within a group everything is measured in the same run; ratios are of medians, to the first row.
+Within a group everything is measured in the same run; ratios are of medians, to the first row. How
+readable layouts are (`benchmarks.readability`) stands at the end, where no files are named.
 """
 
 from __future__ import annotations
@@ -32,6 +33,10 @@ def main(files: list[str]) -> int:
         )
         if found.exists() and found.stat().st_size:
             print(tables(json.loads(found.read_text())))
+    if not files:
+        print("\n**How readable layouts are**\n")
+        sys.stdout.flush()
+        status = subprocess.call([sys.executable, "-m", "benchmarks.readability"]) or status
     return status
 
 

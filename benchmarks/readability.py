@@ -1,0 +1,150 @@
+"""How readable the layouts of examples are, routed in planes and by relaxation, as a table.
+
+``python -m benchmarks.readability [NAME …]``; all are among the examples.
+
+Crossings, and those below 20 degrees, are of middle lines of different hyperedges; hidden is the
+mean share of tubes that is behind others or items; labels are free of which less than a fifth is
+covered. All from one direction, without perspective: the program's own, or that one of `VIEWS` with
+the fewest crossings. Seconds are the routing's alone, by the clock, when kernels are compiled.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from app.formats import registry
+from app.hyperedges.clearance.certificate import certify
+from app.hyperedges.pinches import find_pinches
+from app.hyperedges.route import route
+from app.notations.loader import load_notation
+from app.placement.place import place
+from app.readability.drawing import drawing_of
+from app.readability.projection import Projection, directions
+from app.readability.shape import Shapes, shapes_of
+from app.readability.view import Readability, fewest_crossings, readability
+from app.scene.camera import axes_from
+from app.settings import Settings
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+
+SCENES = {
+    "id3-clause-2": "tubeloom",
+    "yosys/up3down5": "yosys",
+    "hif/e-coli": "hif",
+    "hif/lesmis": "hif",
+}
+"""Files, and their formats."""
+
+WAYS: tuple[Literal["planes", "elastic"], ...] = ("planes", "elastic")
+VIEWS = 60
+
+COLUMNS = (
+    "",
+    "seconds",
+    "own view: crossings",
+    "below 20°",
+    "hidden",
+    "labels free",
+    f"best of {VIEWS}: crossings",
+    "below 20°",
+    "hidden",
+    "labels free",
+    "length over Steiner",
+    "turning",
+    "vertical",
+    "certified",
+    "pinches",
+    "own contacts",
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Row:
+    """One example by one way of routing."""
+
+    title: str
+    seconds: float
+    own: Readability
+    best: Readability
+    shapes: Shapes
+    certified: bool
+    pinches: int
+    own_contacts: int
+
+
+def measure(name: str, way: Literal["planes", "elastic"]) -> Row:
+    """Route one of `SCENES` and look at it."""
+    data = (EXAMPLES / f"{name}.json").read_bytes()
+    program = registry.read(SCENES[name], data, Settings())
+    placement = place(program, load_notation(program.notation))
+    clearance = program.layout.clearance or 0.0
+    begun = time.perf_counter()
+    routing = route(placement, clearance=clearance, routing=way)
+    seconds = time.perf_counter() - begun
+    proof = certify(routing, placement, clearance)
+    drawing = drawing_of(routing, placement)
+    views = [_projection((x, y, z)) for x, y, z in directions(VIEWS).tolist()]
+    return Row(
+        f"{name.rpartition('/')[2]}, {way}",
+        seconds,
+        readability(drawing, _projection(program.view.from_)),
+        readability(drawing, views[fewest_crossings(drawing, views)]),
+        shapes_of(routing, placement),
+        proof.certified,
+        len(find_pinches(routing).segments),
+        len(proof.own.hyperedges),
+    )
+
+
+def table(rows: Sequence[Row]) -> str:
+    """The rows as a Markdown table."""
+    lines = [f"| {' | '.join(COLUMNS)} |", "|---" + "|--:" * (len(COLUMNS) - 1) + "|"]
+    for row in rows:
+        cells = (
+            row.title,
+            f"{row.seconds:.2f}",
+            *_cells(row.own),
+            *_cells(row.best),
+            f"{row.shapes.stretch:.2f}",
+            f"{row.shapes.mean_turning:.1f}",
+            f"{row.shapes.upright_share:.0%}",
+            "yes" if row.certified else "no",
+            str(row.pinches),
+            str(row.own_contacts),
+        )
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def main(names: Sequence[str]) -> int:
+    """Measure the examples of these names, or all, and print the table."""
+    chosen = [name for name in SCENES if not names or name.rpartition("/")[2] in names]
+    for way in WAYS:  # kernels compile, or come from their cache, before anything is timed
+        measure("id3-clause-2", way)
+    print(table([measure(name, way) for name in chosen for way in WAYS]))
+    return 0
+
+
+def _cells(seen: Readability) -> tuple[str, str, str, str]:
+    return (
+        f"{seen.crossings:,}",
+        f"{seen.acute:,}",
+        f"{seen.mean_hidden:.2f}",
+        f"{seen.free_labels:.2f}",
+    )
+
+
+def _projection(direction: tuple[float, float, float]) -> Projection:
+    axes = axes_from(direction)
+    return Projection(np.stack([axes.right, axes.up, axes.back]))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))
