@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from app.arrays import Floats
+from app.hyperedges.clearance.box_tree import TooManyPairs
 from app.hyperedges.curves import join_starts, lay_out, segment_starts
 from app.hyperedges.elastic.limits import can_relax
 from app.hyperedges.elastic.route import elastic_router
@@ -44,9 +45,9 @@ def route(
     wherever that is possible, and so that no curve bends more tightly than 1.5 times its tube's
     radius; without a clearance (None) each is laid for itself. ``routing`` says how: in ``planes``
     (`app.hyperedges.woven`), by ``elastic`` relaxation (`app.hyperedges.elastic`), or as ``auto``
-    by the one of the two that leaves fewer faults; what is too large for relaxation
-    (`app.hyperedges.elastic.limits`) goes in planes. With a ``previous`` layout whatever
-    is not new stays where it is, unless it is in the way.
+    by the one of the two that leaves fewer faults. What is too large for relaxation, or too dense,
+    goes in planes (`app.hyperedges.elastic.limits`, `MOST_NEAR`). With a ``previous`` layout
+    whatever is not new stays where it is, unless it is in the way.
 
     Of the paper's curves, ``fidelity`` says whether exactly they are wanted ("paper") or ones that
     leave their items squarely ("best"); ``closest`` whether CLOSEST measures in three dimensions or
@@ -68,7 +69,11 @@ def route(
         if routing == "auto" and not np.isnan(join_heights).all():
             kinds = ROUTERS["planes"]
         routers = [kind(placement, clearance, join_heights) for kind in kinds]
-        return reroute(placement, clearance, join_heights, routers, previous, progress)
+        try:
+            return reroute(placement, clearance, join_heights, routers, previous, progress)
+        except TooManyPairs:
+            planes = [plane_router(placement, clearance, join_heights)]
+            return reroute(placement, clearance, join_heights, planes, previous, progress)
     join_planes = choose_join_planes(placement, clearance, join_heights)
     laid = lay_out(
         placement.attachment_positions,

@@ -17,9 +17,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-from app.arrays import Floats, Indices
+from app.arrays import Flags, Floats, Indices
 
 FULL = 4
 """Boxes in a leaf."""
@@ -32,6 +31,13 @@ FEW = 4096
 
 
 CORES = os.cpu_count() or 1
+
+MOST_PAIRS = 1 << 60
+"""More than there can be."""
+
+
+class TooManyPairs(Exception):
+    """More pairs of boxes meet than are to be listed."""
 
 
 class Tree(NamedTuple):
@@ -87,25 +93,38 @@ def meeting(
     boxes: Floats,
     numbers: Indices,
     groups: tuple[Indices, Indices],
-    asked: NDArray[np.bool_] | None = None,
+    asked: Flags | None = None,
+    most: int = MOST_PAIRS,
 ) -> Indices:
     """Pairs (m, 2) of a box among ``numbers`` and one of the tree's that it meets, sorted.
 
     ``boxes`` (k, 8) are those that ``numbers`` name; ``groups`` of these (k,) and of the tree's
     (n,): no pair is of one group. Where both are the same boxes, ``asked`` (n,) says which of them
     ``numbers`` has: no pair is found twice then, and the smaller number comes first.
+
+    Raises `TooManyPairs` where there are more than ``most``.
     """
     count = len(tree.order)
     twice = np.zeros(count, dtype=np.bool_) if asked is None else asked
     parts = in_parts(
         len(numbers),
-        lambda begin, end: _collect(tree, boxes, numbers[begin:end], groups[0], groups[1], twice),
+        lambda begin, end: _collect(
+            tree, boxes, numbers[begin:end], groups[0], groups[1], twice, most
+        ),
     )
+    if sum(map(len, parts)) > most:
+        raise TooManyPairs
     found = np.concatenate(parts)
     if asked is not None:
         found.sort(axis=1)
     keys = np.sort(found[:, 0] * count + found[:, 1])
     return np.stack(np.divmod(keys, count), axis=1)
+
+
+def meeting_any(tree: Tree, boxes: Floats) -> Flags:
+    """Which of the ``boxes`` (k, 8) meet one of the tree's or more."""
+    parts = in_parts(len(boxes), lambda begin, end: _meet_any(tree, boxes[begin:end]))
+    return np.asarray(np.concatenate(parts))
 
 
 def _along_curve(middles: Floats) -> Indices:
@@ -166,8 +185,10 @@ def _collect(
     numbers: Indices,
     groups: Indices,
     tree_groups: Indices,
-    asked: NDArray[np.bool_],
+    asked: Flags,
+    most: int,
 ) -> Indices:
+    """At most one pair more than ``most``."""
     order, places, tree_boxes, nodes = tree
     leaves = len(nodes) // 2
     stack = np.empty(DEEPEST, np.int64)
@@ -200,4 +221,32 @@ def _collect(
                         found = larger
                     found[count, 0], found[count, 1] = i, j
                     count += 1
+                    if count > most:
+                        return found[:count]
     return found[:count].copy()
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _meet_any(tree: Tree, boxes: Floats) -> Flags:
+    _, _, tree_boxes, nodes = tree
+    leaves = len(nodes) // 2
+    stack = np.empty(DEEPEST, np.int64)
+    found = np.zeros(len(boxes), np.bool_)
+    for i in range(len(boxes)):
+        waiting = 1
+        stack[0] = 1
+        while waiting > 0 and not found[i]:
+            waiting -= 1
+            node = stack[waiting]
+            if node < leaves:
+                for child in (2 * node + 1, 2 * node):
+                    if _meet(boxes, i, nodes, child):
+                        stack[waiting] = child
+                        waiting += 1
+                continue
+            first = (node - leaves) * FULL
+            for place in range(first, min(first + FULL, len(tree_boxes))):
+                if _meet(boxes, i, tree_boxes, place):
+                    found[i] = True
+                    break
+    return found

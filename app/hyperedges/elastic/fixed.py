@@ -6,7 +6,7 @@ import numpy as np
 
 from app.arrays import Floats, Indices
 from app.grouped import rows_of, starts_of
-from app.hyperedges.clearance.box_tree import meeting, plant
+from app.hyperedges.clearance.box_tree import meeting_any, plant
 from app.hyperedges.elastic.beads import Fixed
 from app.hyperedges.elastic.faults import Curves
 from app.hyperedges.routing import Routing
@@ -54,7 +54,4 @@ def _beside(curves: Curves, placement: Placement, chosen: Indices) -> Indices:
     reach = BESIDE * np.linalg.norm(highs - lows, axis=1) + MARGIN * placement.radii[chosen]
     asked = np.zeros((len(chosen), 8))
     asked[:, :3], asked[:, 4:7] = lows - reach[:, None], highs + reach[:, None]
-    numbers = np.arange(len(chosen))
-    tree = plant(curves.boxes)
-    found = meeting(tree, asked, numbers, (numbers, np.full(len(curves.owners), -1)))
-    return np.unique(found[:, 1])
+    return np.flatnonzero(meeting_any(plant(asked), curves.boxes))

@@ -19,6 +19,9 @@ from app.hyperedges.elastic.chains import Chains
 from app.hyperedges.elastic.relaxation import Near
 from app.hyperedges.elastic.rounded_boxes import Boxes
 
+MOST_NEAR = 8_000_000
+"""Pairs of segments, or of a segment and a box: some gigabyte of memory."""
+
 TOGETHER = 7
 """Segments of two chains that meet at a join count as one there: so many in all."""
 
@@ -76,7 +79,8 @@ def find_near(
 
     ``rooms`` (s,), ``size`` and ``skin`` as for `app.hyperedges.elastic.relaxation.relax`;
     ``stretch`` (c,) as for `app.hyperedges.elastic.run.State`; ``moving`` (b,). Only the segments
-    ``among`` (k,), ascending, count, if they are given.
+    ``among`` (k,), ascending, count, if they are given. Raises `TooManyPairs` where that is more
+    than `MOST_NEAR`.
     """
     some = np.arange(len(beads.segments)) if among is None else among
     segments, of = beads.segments[some], beads.chains[some]
@@ -142,7 +146,7 @@ def _near_items(
     around[:, :3] -= 0.5 * clearance
     around[:, 4:7] += 0.5 * clearance
     numbers, strangers = np.arange(len(asking)), np.full(len(items.owners), -1)
-    near = meeting(items.tree, around, numbers, (numbers, strangers))
+    near = meeting(items.tree, around, numbers, (numbers, strangers), most=MOST_NEAR)
     near[:, 0] = asking[near[:, 0]]
     ends_of, own_items = items.own
     count = int(max(items.owners.max(), own_items.max(initial=0))) + 1

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.arrays import Flags, Floats, Indices
-from app.hyperedges.clearance.box_tree import meeting, plant
+from app.hyperedges.clearance.box_tree import meeting_any, plant
 from app.hyperedges.elastic.assembly import routing_of
 from app.hyperedges.elastic.beads import SPACING
 from app.hyperedges.elastic.faults import Faults, find_faults
@@ -220,17 +220,14 @@ def _near(state: State, faults: Faults, routing: Routing) -> Part | None:
         [faults.places, routing.control_points[faults.pinched, 0], faults.own_places]
     )
     reach = NEIGHBOURHOOD * SPACING * float(state.chains.radii.max())
-    asked = np.zeros((len(places), 8))
-    numbers = np.arange(len(places))
     lines = np.zeros((len(beads.segments), 8))
     one, other = (state.x[beads.segments[:, side]] for side in range(2))
     lines[:, :3], lines[:, 4:7] = np.minimum(one, other), np.maximum(one, other)
-    tree = plant(lines)
     found = []
     for wider in (1.0, BESIDE):
-        asked[:, :3], asked[:, 4:7] = places - wider * reach, places + wider * reach
-        near = meeting(tree, asked, numbers, (numbers, np.full(len(lines), -1)))
-        found.append(np.unique(near[:, 1]))
+        around = np.zeros((len(places), 8))
+        around[:, :3], around[:, 4:7] = places - wider * reach, places + wider * reach
+        found.append(np.flatnonzero(meeting_any(plant(around), lines)))
     moving = np.zeros(len(state.x), dtype=np.bool_)
     moving[beads.segments[found[0]]] = True
     return Part(moving, found[1])

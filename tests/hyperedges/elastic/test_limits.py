@@ -11,7 +11,6 @@ from app.hyperedges.elastic import neighbours, run
 from app.hyperedges.elastic.beads import Beads
 from app.hyperedges.elastic.limits import WIDEST, can_relax
 from app.hyperedges.elastic.relaxation import Near
-from app.hyperedges.elastic.route import route_elastic
 from app.hyperedges.route import route
 from app.solids.solid import Box
 from tests.hyperedges.clearance.furniture import furnished
@@ -56,6 +55,19 @@ def test_a_thick_tube_far_off_gives_thin_ones_no_more_neighbours(
     for thick in (0.02, 0.4):
         watched.clear()
         unlike = replace(scene, radii=np.array([0.02, 0.02, thick]))
-        route_elastic(unlike, CLEARANCE, np.full(3, np.nan))
+        route(unlike, clearance=CLEARANCE, routing="elastic")
         first.append(watched[0])
     assert first[0] == first[1] > 0
+
+
+@pytest.mark.parametrize("routing", ["elastic", "auto"])
+def test_what_is_too_dense_goes_in_planes(
+    routing: Literal["elastic", "auto"], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = furnished([CUBE, CUBE], [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0]], attachments=[[0, 1]] * 4)
+    planes = route(scene, routing="planes")
+    found = route(scene, routing="elastic")
+    assert not np.array_equal(found.control_points, planes.control_points)
+    monkeypatch.setattr(neighbours, "MOST_NEAR", 4)
+    found = route(scene, routing=routing)
+    np.testing.assert_array_equal(found.control_points, planes.control_points)
