@@ -83,8 +83,9 @@ def test_layout_writes_numbers(program: Path) -> None:
     done = CliRunner().invoke(main, ["layout", str(program), "--patches"])
     assert done.exit_code == 0, done.output
     numbers = json.loads(done.stdout)
-    assert len(numbers["hyperedges"][0]["segments"]) == 3
-    assert numbers["hyperedges"][0]["segments"][0]["patches"]
+    segments = numbers["hyperedges"][0]["segments"]
+    assert len(segments) >= 3
+    assert all(segment["patches"] for segment in segments)
 
 
 def test_convert_writes_a_program(tmp_path: Path) -> None:
