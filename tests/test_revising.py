@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +28,8 @@ from app.answers import (
     ReviseOptions,
 )
 from app.errors import InconsistentDocument, PatchConflict
-from app.layout import Layout
+from app.hyperedges.route import route
+from app.layout import Layout, judge
 from app.layout_record import read_layout, write_layout
 from app.output.media import SceneFormat
 from app.pipeline import answer
@@ -39,12 +40,24 @@ from app.revising import revise
 from app.settings import Settings
 from tests.output.gltf_reader import Asset
 from tests.placement.standing_rules import assert_in_order
-from tests.program.edit_sequences import Json, as_bytes, edits, programs, sequences
+from tests.program.edit_sequences import (
+    Json,
+    as_bytes,
+    edits,
+    in_space,
+    programs,
+    routed,
+    sequences,
+)
 
 SETTINGS = Settings()
 
 SEQUENCES = int(os.environ.get("EDIT_SEQUENCES", "10"))
 """Random ones for each property; a few hundred find what these may miss."""
+
+
+ROUTED = max(SEQUENCES // 4, 1)
+"""Of each kind that is routed by relaxation, which takes longer."""
 
 
 @dataclass(frozen=True)
@@ -308,6 +321,41 @@ def test_after_edits_everything_stands_in_order(made: tuple[Program, tuple[Json,
     for edit in done:
         revision = revision.edited(edit)
         assert_in_order(revision.layout.program, revision.layout.placement)
+
+
+def assert_as_clear_as_anew(before: Revision, after: Revision) -> None:
+    """Where hyperedges of the same placement can be kept apart anew, they are after an edit."""
+    layout = after.layout
+    if not is_certified(before.layout) or is_certified(layout):
+        return
+    wishes = layout.program.layout
+    anew = route(layout.placement, clearance=wishes.clearance, routing=wishes.routing)
+    assert not is_certified(replace(layout, routing=anew))
+
+
+def is_certified(layout: Layout) -> bool:
+    found = judge(layout)
+    return found is not None and found.certificate.certified
+
+
+@pytest.mark.parametrize("routing", ["elastic", "auto"])
+@pytest.mark.parametrize("kind", [programs(), in_space()], ids=["ground", "space"])
+@settings(max_examples=ROUTED)
+@given(data=st.data())
+def test_edits_of_what_is_routed_by_relaxation(
+    kind: st.SearchStrategy[Program], routing: str, data: st.DataObject
+) -> None:
+    revision = Revision.first(routed(data.draw(kind), routing))
+    for number in range(data.draw(st.integers(1, 3))):
+        edit = data.draw(edits(revision.layout.program, number))
+        after = revision.edited(edit)
+        assert_still(edit, revision, after)
+        assert_colors_stay(edit, revision, after)
+        assert_curves_stay(edit, revision, after)
+        assert_told(revision, after)
+        assert_kept(revision, after)
+        assert_as_clear_as_anew(revision, after)
+        revision = after
 
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "id3-clause-2.json"

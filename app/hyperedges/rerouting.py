@@ -13,10 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from app.arrays import Flags, Floats, Indices
-from app.grouped import rows_of
 from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacles import obstacles_of
-from app.hyperedges.elastic.faults import find_faults
+from app.hyperedges.elastic.faults import Curves, find_faults
 from app.hyperedges.elastic.fixed import curves_of
 from app.hyperedges.joining import merge
 from app.hyperedges.previous import Previous, keepable
@@ -25,6 +24,9 @@ from app.placement.placement import Placement
 
 HITS = 3
 """How often hyperedges that an edit hits are routed anew with it, before all are, if that helps."""
+
+ROOM = 12.0
+"""How near to a conflict hyperedges leave little room for others, over the largest radius."""
 
 Progress = Callable[[float], None]
 """Told which share of the work is done at least, from 0 to 1. May raise to end it."""
@@ -100,47 +102,45 @@ def reroute(
     best = latest = work.best(kept)
     least = best.faults
     for attempt in range(1, HITS + 1):
-        hit = latest.hit[~ending_together(placement, latest.hit, latest.kept)]
-        if len(hit) == 0:
+        kept = latest.kept & ~latest.freed
+        if not latest.freed.any():
             break
-        kept = latest.kept.copy()
-        kept[hit] = False
-        if attempt == HITS or not kept.any():
-            hit, kept = np.flatnonzero(latest.kept), np.zeros_like(kept)
-        # Where the best curves so far keep those of what is hit, they keep their faults too.
-        least = least.plus(work.faults_before(hit, kept))
+        if attempt == HITS:
+            kept[:] = False
+        # Where the best curves so far keep those of what is freed, they keep their faults too.
+        least = least.plus(work.faults_before(np.flatnonzero(latest.kept & ~kept), kept))
         latest = work.best(kept) if kept.any() else work.whole(least)
         if latest.faults < least:
             best, least = latest, latest.faults
     return best.routing if not best.kept.any() else work.with_kept(best)
 
 
-def ending_together(placement: Placement, hit: Indices, kept: Flags) -> Flags:
-    """Which of the hyperedges ``hit`` (m,) end where one does that is not ``kept`` (h,).
+def _end_together(placement: Placement, pairs: Indices) -> Flags:
+    """Which pairs (m, 2) of hyperedges end at one place.
 
-    They touch there however they run: to route them anew would move them for nothing.
+    They touch there however they run.
     """
     starts = placement.attachment_starts
     places = np.ascontiguousarray(placement.attachment_positions).view("V24").ravel()
-    rows = rows_of(starts, hit)
-    shared = np.isin(places[rows], places[rows_of(starts, np.flatnonzero(~kept))])
-    counts = np.diff(starts)[hit]
-    found = np.zeros(len(hit), dtype=np.bool_)
-    found[np.repeat(np.arange(len(hit)), counts)[shared]] = True
+    found = np.zeros(len(pairs), dtype=np.bool_)
+    for row, (first, second) in enumerate(pairs.tolist()):
+        one, other = (places[starts[number] : starts[number + 1]] for number in (first, second))
+        found[row] = np.isin(one, other).any()
     return found
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Made:
-    """Curves of all hyperedges but those ``kept`` (h,); their faults; which of those are ``hit``.
+    """Curves of all hyperedges but those ``kept`` (h,), and their faults.
 
-    ``hit`` (m,) are numbers of hyperedges.
+    ``freed`` (h,): those kept that they come too near to; or, where there are none but other
+    conflicts, those that leave little room there.
     """
 
     routing: Routing
     kept: Flags
     faults: Count
-    hit: Indices
+    freed: Flags
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -198,31 +198,48 @@ class _Routing:
 
         routed = router.route(chosen, self._old(others), progress)
         routing = replace(routed.routing, is_elastic=router.is_elastic)
-        faults, hit = NONE, np.zeros(0, dtype=np.int64)
+        faults, freed = NONE, np.zeros_like(kept)
         if not routed.is_proven and (self.previous is not None or len(self.routers) > 1):
-            faults, hit = self._faults(chosen, kept, routing)
-        return _Made(routing, kept, faults, hit)
+            faults, freed = self._faults(chosen, kept, routing)
+        return _Made(routing, kept, faults, freed)
 
     def _old(self, hyperedges: Indices) -> Routing:
         if self.previous is None:
             return Routing.nothing()
         return self.previous.routing.part(self.previous.numbers[hyperedges])
 
-    def _faults(self, hyperedges: Indices, kept: Flags, routing: Routing) -> tuple[Count, Indices]:
-        """What is wrong with curves of ``hyperedges`` (k,), and the others that they come too near.
-
-        Beside those that are ``kept`` (h,).
-        """
+    def _faults(self, hyperedges: Indices, kept: Flags, routing: Routing) -> tuple[Count, Flags]:
+        """What is wrong with curves of ``hyperedges`` (k,), and which of those ``kept`` to free."""
         part = self.placement.of_hyperedges(hyperedges)
         around = ItemsAround.of(part, obstacles_of(self.placement).bodies, self.clearance)
-        others = np.flatnonzero(kept)
-        curves = curves_of(self._old(others), len(hyperedges))
+        curves = curves_of(self._old(np.flatnonzero(kept)), len(hyperedges))
         active = np.ones(len(hyperedges), dtype=np.bool_)
         found = find_faults(routing, curves, around, self.clearance, active)
-        count = len(hyperedges) + len(others)
         owners = np.repeat(np.arange(len(hyperedges)), np.diff(routing.segment_starts))
         owners = np.concatenate([owners, curves.owners])
-        second = np.where(found.others < 0, count + found.items, owners[found.others])
-        pairs = np.unique(np.stack([owners[found.segments], second], axis=1), axis=0)
-        numbers = Count(len(pairs), len(found.pinched) + len(found.own))
-        return numbers, others[found.hit - len(hyperedges)]
+        numbers = np.concatenate([hyperedges, np.flatnonzero(kept)])
+        first = numbers[owners[found.segments]]
+        with_item = found.others < 0
+        second = np.where(with_item, -1 - found.items, numbers[owners[found.others]])
+        pairs, rows = np.unique(np.stack([first, second], axis=1), axis=0, return_inverse=True)
+        wrong = np.ones(len(pairs), dtype=np.bool_)
+        two = np.flatnonzero(pairs[:, 1] >= 0)
+        wrong[two] = ~_end_together(self.placement, pairs[two])
+        second = pairs[wrong, 1]
+        freed = np.zeros_like(kept)
+        freed[second[second >= 0]] = True
+        freed &= kept
+        if not freed.any():
+            near = _near_places(curves, found.places[wrong[rows.ravel()]])
+            freed[numbers[curves.owners[near]]] = True
+        return Count(int(wrong.sum()), len(found.pinched) + len(found.own)), freed
+
+
+def _near_places(curves: Curves, places: Floats) -> Indices:
+    """Which ``curves`` come near to ``places`` (n, 3)."""
+    found = np.zeros(len(curves.owners), dtype=np.bool_)
+    reach = ROOM * float(curves.radii.max(initial=0.0))
+    for place in places:
+        meets = (curves.boxes[:, :3] <= place + reach) & (curves.boxes[:, 4:7] >= place - reach)
+        found |= meets.all(axis=1)
+    return np.flatnonzero(found)

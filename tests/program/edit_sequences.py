@@ -29,6 +29,13 @@ SHAPES: tuple[Json, ...] = (
     {"type": "cone", "radius": 0.3},
 )
 
+BODIES: tuple[Json, ...] = (
+    {"type": "box", "size": [1, 1, 1]},
+    {"type": "box", "size": [0.5, 1, 1.5]},
+    {"type": "sphere", "radius": 0.6},
+)
+"""Of items that float."""
+
 LAYOUTS: tuple[Json, ...] = ({}, {}, {}, {"curves": "prose"}, {"clearance": None})
 """Most are as they are by default."""
 
@@ -71,6 +78,35 @@ def programs(draw: st.DrawFn, placed: bool = True) -> Program:
         "layout": {"constraints": draw(_line_ups(items)), **draw(st.sampled_from(LAYOUTS))},
     }
     return Program.model_validate_json(json.dumps(document))
+
+
+@st.composite
+def in_space(draw: st.DrawFn) -> Program:
+    """Up to eight items that float apart from each other, and up to six hyperedges."""
+    cells = st.tuples(*[st.integers(-2, 2)] * 3)
+    places = draw(st.lists(cells, min_size=3, max_size=8, unique=True))
+    items: list[Json] = [
+        {
+            "id": f"i{number}",
+            "shape": draw(st.sampled_from(BODIES)),
+            "position": [3 * step for step in cell],
+        }
+        for number, cell in enumerate(places)
+    ]
+    names = st.sampled_from([item["id"] for item in items])
+    ends = st.lists(names, min_size=2, max_size=4, unique=True)
+    hyperedges = [
+        {"id": f"e{number}", "attachments": [{"item": name} for name in chosen]}
+        for number, chosen in enumerate(draw(st.lists(ends, min_size=1, max_size=6)))
+    ]
+    document = {"items": items, "hyperedges": hyperedges, "style": {"ground": False}}
+    return Program.model_validate_json(json.dumps(document))
+
+
+def routed(program: Program, routing: str) -> Program:
+    """The program with another way to route it, by short trees that keep clear."""
+    layout = {"routing": routing, "curves": None, "clearance": 0.05}
+    return program.model_copy(update={"layout": program.layout.model_copy(update=layout)})
 
 
 @st.composite
