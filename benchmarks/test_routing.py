@@ -6,7 +6,10 @@ many tubes touch, by the certificate that ours are measured with.
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -17,13 +20,18 @@ import pytest
 from app.formats import registry
 from app.hyperedges.clearance.certificate import certify
 from app.hyperedges.routing import Routing
+from app.layout import Layout, lay_out
+from app.layout_changes import changes_between
 from app.notations.loader import load_notation
 from app.placement.place import place
 from app.placement.placement import Placement
+from app.program.model import Program
+from app.program.reading import read_program
 from app.settings import Settings
 from benchmarks import peers
 from benchmarks.clear_programs import by_paper, by_us
-from benchmarks.random_programs import CLEARANCE, Reach, random_program
+from benchmarks.random_in_space import RandomSpace, random_in_space
+from benchmarks.random_programs import CLEARANCE, RandomProgram, Reach, random_program
 from benchmarks.route_figures import figures
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -82,6 +90,56 @@ def test_certificate_of_ours(benchmark: Any, hyperedges: int, reach: Reach) -> N
         certify, (routing, placement, CLEARANCE), rounds=rounds(hyperedges), warmup_rounds=1
     )
     benchmark.extra_info["smallest distance"] = f"{proof.minimum:.4f}"
+
+
+@pytest.mark.parametrize("number", [17, 459, 711])
+@pytest.mark.parametrize("make", [random_program, random_in_space], ids=["ground", "space"])
+def test_one_hyperedge_more(
+    benchmark: Any, make: Callable[[int, int, Reach], RandomProgram | RandomSpace], number: int
+) -> None:
+    """From an edit to the new layout, by relaxation: what is new is routed beside all others."""
+    benchmark.group = "One hyperedge more among 1,000, local"
+    before, program = _before_the_last(make, number)
+    after = benchmark.pedantic(lay_out, (program, before), rounds=5, warmup_rounds=1)
+    changed = changes_between(before, after).hyperedges.changed
+    proof = certify(after.routing, after.placement, CLEARANCE)
+    benchmark.extra_info["others that moved"] = str(len(changed))
+    benchmark.extra_info["clear"] = "yes" if proof.certified else "no"
+
+
+@pytest.mark.parametrize("make", [random_program, random_in_space], ids=["ground", "space"])
+def test_an_item_moved(
+    benchmark: Any, make: Callable[[int, int, Reach], RandomProgram | RandomSpace]
+) -> None:
+    """An item moves a little, and its hyperedges with it."""
+    benchmark.group = "An item moved among 1,000 hyperedges, local"
+    before, _ = _before_the_last(make, 459)
+    item = before.program.items[300]
+    x, y, z = item.position or (0.0, 0.0, 0.0)
+    moved = item.model_copy(update={"position": (x, y, z + 0.05)})
+    items = (*before.program.items[:300], moved, *before.program.items[301:])
+    program = before.program.model_copy(update={"items": items})
+    after = benchmark.pedantic(lay_out, (program, before), rounds=5, warmup_rounds=1)
+    changes = changes_between(before, after)
+    benchmark.extra_info["hyperedges that moved"] = str(len(changes.hyperedges.changed))
+
+
+@cache
+def _whole(make: Callable[[int, int, Reach], RandomProgram | RandomSpace]) -> Layout:
+    document = json.dumps(make(1_000, 0, "local").document(routing="elastic")).encode()
+    return lay_out(read_program(document, Settings()))
+
+
+def _before_the_last(
+    make: Callable[[int, int, Reach], RandomProgram | RandomSpace], number: int
+) -> tuple[Layout, Program]:
+    """A layout without one hyperedge, and the program with it."""
+    whole = _whole(make)
+    rest = tuple(one for k, one in enumerate(whole.program.hyperedges) if k != number)
+    fewer = whole.program.model_copy(update={"hyperedges": rest})
+    new = whole.program.hyperedges[number]
+    program = whole.program.model_copy(update={"hyperedges": (*rest, new)})
+    return lay_out(fewer, whole), program
 
 
 @each_size

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -38,6 +39,8 @@ from app.program.model import Program
 from app.program.reading import read_program
 from app.revising import revise
 from app.settings import Settings
+from benchmarks.random_in_space import RandomSpace, random_in_space
+from benchmarks.random_programs import RandomProgram, random_program
 from tests.output.gltf_reader import Asset
 from tests.placement.standing_rules import assert_in_order
 from tests.program.edit_sequences import (
@@ -536,12 +539,8 @@ def test_a_scene_of_what_changed_makes_the_old_scene_the_new_one(
     before = Revision.first(program)
     after = before.edited(*done)
     changes = after.revised.changes
-    delta = Delta(
-        1, 2, changes.items.present, changes.hyperedges.present,
-        changes.items.removed, changes.hyperedges.removed,
-    )  # fmt: skip
     old, new = (glb(revision) for revision in (before, after))
-    part = glb(after, delta)
+    part = glb(after, since(after))
     shown = nodes(part)
     assert shown.keys() == changes.items.present | changes.hyperedges.present
     assert shown.items() <= nodes(new).items()
@@ -551,6 +550,38 @@ def test_a_scene_of_what_changed_makes_the_old_scene_the_new_one(
     if not changes.whole:
         kept = {name: node for name, node in nodes(old).items() if name not in gone}
         assert without_detail(kept | shown) == without_detail(nodes(new))
+
+
+@pytest.mark.parametrize("make", [random_program, random_in_space])
+def test_only_what_is_new_or_moves_is_in_the_scene_of_an_edit(
+    make: Callable[[int, int], RandomProgram | RandomSpace],
+) -> None:
+    document = make(10, 3).document(routing="elastic")
+    new = document["hyperedges"].pop()
+    before = Revision.first(document)
+    after = before.edited({"type": "add_hyperedge", "hyperedge": new})
+    assert nodes(glb(after, since(after))).keys() == {new["id"]}
+    assert is_certified(after.layout)
+
+    item = document["items"][0]
+    x, y, z = item["position"]
+    fields = {"position": [x, y, z + 0.05]}
+    moved = after.edited({"type": "set_item", "id": item["id"], "fields": fields})
+    tubes = {
+        hyperedge["id"]
+        for hyperedge in [*document["hyperedges"], new]
+        if any(end["item"] == item["id"] for end in hyperedge["attachments"])
+    }
+    assert tubes
+    assert nodes(glb(moved, since(moved))).keys() == {item["id"], *tubes}
+    assert is_certified(moved.layout)
+
+
+def since(after: Revision) -> Delta:
+    """What the last edit changed."""
+    told = after.revised.changes
+    parts = told.items.present, told.hyperedges.present
+    return Delta(1, 2, *parts, told.items.removed, told.hyperedges.removed)
 
 
 def without_detail(found: dict[str, Any]) -> dict[str, Any]:

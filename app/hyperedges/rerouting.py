@@ -62,10 +62,6 @@ class Count(NamedTuple):
     conflicts: int
     others: int
 
-    def plus(self, more: Count) -> Count:
-        """Both together."""
-        return Count(self.conflicts + more.conflicts, self.others + more.others)
-
 
 NONE = Count(0, 0)
 
@@ -100,18 +96,15 @@ def reroute(
     by_kind = tuple(sorted(routers, key=lambda router: router.is_elastic != is_elastic))
     work = _Routing(placement, clearance, by_kind, previous, progress)
     best = latest = work.best(kept)
-    least = best.faults
     for attempt in range(1, HITS + 1):
-        kept = latest.kept & ~latest.freed
         if not latest.freed.any():
             break
-        if attempt == HITS:
-            kept[:] = False
-        # Where the best curves so far keep those of what is freed, they keep their faults too.
-        least = least.plus(work.faults_before(np.flatnonzero(latest.kept & ~kept), kept))
-        latest = work.best(kept) if kept.any() else work.whole(least)
-        if latest.faults < least:
-            best, least = latest, latest.faults
+        kept = latest.kept & ~latest.freed
+        is_last = attempt == HITS or not kept.any()
+        latest = work.whole(best.faults) if is_last else work.best(kept)
+        # What had faults for long is no reason to move: fewer must be left than the edit alone has.
+        if latest.faults < best.faults:
+            best = latest
     return best.routing if not best.kept.any() else work.with_kept(best)
 
 
@@ -179,10 +172,6 @@ class _Routing:
             if made.faults.conflicts == 0:
                 best = made
         return best
-
-    def faults_before(self, hyperedges: Indices, kept: Flags) -> Count:
-        """Faults that old curves of ``hyperedges`` (k,) have, beside those ``kept`` (h,)."""
-        return self._faults(hyperedges, kept, self._old(hyperedges))[0]
 
     def with_kept(self, made: _Made) -> Routing:
         """What was made and what is kept, in the order of their numbers."""

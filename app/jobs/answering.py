@@ -73,19 +73,27 @@ class Answering:
 
     def key(self, document: bytes, options: Options, layout: bytes | None = None) -> str:
         """Of the answer: 64 hexadecimal digits. Equal keys have equal answers."""
-        digest = self._root.copy()
-        digest.update(f"{_asked(options)}\n{len(document)}\n{layout is None}\n".encode())
-        digest.update(document)
-        digest.update(layout or b"")
-        return digest.hexdigest()
+        return self._keys(document, options, layout)[0]
 
-    def _keys(self, document: bytes, options: Options, layout: bytes | None) -> tuple[str, str]:
-        """Of the answer, and of the document's layout, which other answers have in common."""
+    def _keys(
+        self, document: bytes, options: Options, layout: bytes | None
+    ) -> tuple[str, str | None]:
+        """Of the answer, and of the document's layout, where other answers have it in common.
+
+        Stored programs have layouts of their own, and conversions none. The document is hashed
+        once.
+        """
+        content = hashlib.sha256(document).digest()
+        of_answer = self._root.copy()
+        of_answer.update(f"{_asked(options)}\n{layout is None}\n".encode())
+        of_answer.update(content)
+        of_answer.update(layout or b"")
+        if layout is not None or not isinstance(options, RenderOptions | LayoutOptions):
+            return of_answer.hexdigest(), None
         of_layout = self._root.copy()
-        if isinstance(options, RenderOptions | LayoutOptions):
-            of_layout.update(f"{options.source}\n{options.wishes}\nlayout\n".encode())
-        of_layout.update(document)
-        return self.key(document, options, layout), of_layout.hexdigest()
+        of_layout.update(f"{options.source}\n{options.wishes}\nlayout\n".encode())
+        of_layout.update(content)
+        return of_answer.hexdigest(), of_layout.hexdigest()
 
     def at_hand(
         self,
@@ -123,9 +131,9 @@ class Answering:
             if (kept := await self._kept(key)) is not None:
                 return _finished(kept, known)
             heard = None if listener is None else tell
-            shared = self._layouts.get(layout_key)
+            shared = None if layout_key is None else self._layouts.get(layout_key)
             finished = await self._pool.answer(document, options, known, heard, layout, shared)
-            if finished.shared is not None:
+            if layout_key is not None and finished.shared is not None:
                 self._layouts.put(layout_key, finished.shared)
             self._keep(key, finished)
             return replace(finished, cache="miss", shared=None)
