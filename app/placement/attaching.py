@@ -12,6 +12,7 @@ from app.grouped import rows_of, starts_of
 from app.placement.placement import Placement
 from app.placement.points import points_of
 from app.placement.previous_attachments import PreviousAttachments, previous_attachments
+from app.placement.separating import separated
 from app.placement.spreading import is_spread, spread
 from app.placement.standing import Standing
 from app.placement.turning import Vector, turned
@@ -21,7 +22,8 @@ from app.program.model import Hyperedge, Program
 def attached(program: Program, placed: Placement, standing: Standing | None = None) -> Placement:
     """The items that are ``placed``, with the attachments of all hyperedges of the program.
 
-    What would end at the same place gets places side by side. After an edit, ends that are attached
+    What would end at the same place gets places side by side, and what is almost far enough apart
+    is. After an edit, ends that are attached
     as they were stay where they were: to the last bit where their item has not moved, and else at
     the same place of the item. ``placed`` has the radii of all hyperedges.
     """
@@ -52,7 +54,7 @@ def attached(program: Program, placed: Placement, standing: Standing | None = No
     held = np.repeat(stays, counts)
     if before is not None:
         whole, held = _followed(whole, before, held)
-    return spread(program, whole, held)
+    return separated(spread(program, whole, held), program.layout.clearance or 0.0, held)
 
 
 def _followed(
