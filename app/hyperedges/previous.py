@@ -78,11 +78,14 @@ def _obstructed(
     if len(hyperedges) == 0:
         return hyperedges
     obstacles, old_obstacles = obstacles_of(placement), obstacles_of(previous.placement)
+    numbers = previous.numbers[hyperedges]
+    part, old_part = placement.of_hyperedges(hyperedges), previous.placement.of_hyperedges(numbers)
+    if _are_same(obstacles, old_obstacles) and _attach_alike(part, old_part):
+        return np.zeros(0, dtype=np.int64)
     boxes, old_boxes = _numbered(obstacles, old_obstacles)
     new = np.flatnonzero(~np.isin(boxes, old_boxes))
-    numbers = previous.numbers[hyperedges]
-    around = ItemsAround.of(placement.of_hyperedges(hyperedges), obstacles, clearance)
-    before = ItemsAround.of(previous.placement.of_hyperedges(numbers), old_obstacles, clearance)
+    around = ItemsAround.of(part, obstacles, clearance)
+    before = ItemsAround.of(old_part, old_obstacles, clearance)
     count = max(int(boxes.max(initial=0)), int(old_boxes.max(initial=0))) + 1
     other = [
         np.setxor1d(
@@ -113,6 +116,21 @@ def _obstructed(
     known = _conflicts(curves, before, old_boxes, asked)
     keys, known_keys = (pairs[:, 0] * count + pairs[:, 1] for pairs in (found, known))
     return np.unique(found[~np.isin(keys, known_keys), 0])
+
+
+def _are_same(obstacles: Obstacles, old: Obstacles) -> bool:
+    """Whether all boxes are the same, of items of the same numbers."""
+    return all(
+        np.array_equal(getattr(obstacles, name), getattr(old, name))
+        for name in ("items", "centers", "rotations", "halves", "roundings", "is_label")
+    )
+
+
+def _attach_alike(placement: Placement, old: Placement) -> bool:
+    """Whether all hyperedges attach to items of the same numbers, which are parts of the same."""
+    return np.array_equal(placement.parents, old.parents) and np.array_equal(
+        placement.attachment_items, old.attachment_items
+    )
 
 
 def _conflicts(curves: Routing, around: ItemsAround, boxes: Indices, asked: Flags) -> Indices:

@@ -127,10 +127,11 @@ class _Made:
     """Curves of all hyperedges but those ``kept`` (h,), and their faults.
 
     ``freed`` (h,): those kept that they come too near to; or, where there are none but other
-    conflicts, those that leave little room there.
+    conflicts, those that leave little room there. ``others`` are the curves of those kept.
     """
 
     routing: Routing
+    others: Routing
     kept: Flags
     faults: Count
     freed: Flags
@@ -175,33 +176,34 @@ class _Routing:
 
     def with_kept(self, made: _Made) -> Routing:
         """What was made and what is kept, in the order of their numbers."""
-        chosen, others = np.flatnonzero(~made.kept), np.flatnonzero(made.kept)
-        return merge(self._old(others), made.routing, np.concatenate([others, chosen]))
+        order = np.concatenate([np.flatnonzero(made.kept), np.flatnonzero(~made.kept)])
+        return merge(made.others, made.routing, order)
 
     def _made(self, number: int, kept: Flags) -> _Made:
         router = self.routers[number]
-        chosen, others = np.flatnonzero(~kept), np.flatnonzero(kept)
+        chosen, others = np.flatnonzero(~kept), self._old(np.flatnonzero(kept))
 
         def progress(share: float) -> None:
             self.progress((number + share) / len(self.routers))
 
-        routed = router.route(chosen, self._old(others), progress)
+        routed = router.route(chosen, others, progress)
         routing = replace(routed.routing, is_elastic=router.is_elastic)
         faults, freed = NONE, np.zeros_like(kept)
         if not routed.is_proven and (self.previous is not None or len(self.routers) > 1):
-            faults, freed = self._faults(chosen, kept, routing)
-        return _Made(routing, kept, faults, freed)
+            faults, freed = self._faults(kept, routing, others)
+        return _Made(routing, others, kept, faults, freed)
 
     def _old(self, hyperedges: Indices) -> Routing:
         if self.previous is None:
             return Routing.nothing()
         return self.previous.routing.part(self.previous.numbers[hyperedges])
 
-    def _faults(self, hyperedges: Indices, kept: Flags, routing: Routing) -> tuple[Count, Flags]:
-        """What is wrong with curves of ``hyperedges`` (k,), and which of those ``kept`` to free."""
+    def _faults(self, kept: Flags, routing: Routing, others: Routing) -> tuple[Count, Flags]:
+        """What is wrong with curves beside the ``others``, and which of those ``kept`` to free."""
+        hyperedges = np.flatnonzero(~kept)
         part = self.placement.of_hyperedges(hyperedges)
         around = ItemsAround.of(part, obstacles_of(self.placement).bodies, self.clearance)
-        curves = curves_of(self._old(np.flatnonzero(kept)), len(hyperedges))
+        curves = curves_of(others, len(hyperedges))
         active = np.ones(len(hyperedges), dtype=np.bool_)
         found = find_faults(routing, curves, around, self.clearance, active)
         owners = np.repeat(np.arange(len(hyperedges)), np.diff(routing.segment_starts))

@@ -121,19 +121,17 @@ def _in_axes(places: Floats, placement: Placement, items: Indices) -> Floats:
 def _items_now(program: Program, placed: Placement, standing: Standing, old: Placement) -> Indices:
     """Numbers of the items of before as they are now, where size, shape and points are the same."""
     numbers = {item.id: number for number, item in enumerate(program.items)}
-    now = np.full(len(old.centers), -1)
-    sizes, old_sizes = _bits(placed.sizes), _bits(old.sizes)
-    for former, item in enumerate(standing.program.items):
-        number = numbers.get(item.id, -1)
-        if number < 0:
-            continue
-        same, solid = program.items[number], placed.solids[number]
-        if (
-            (same is item or same.attachment_points == item.attachment_points)
-            and (solid is old.solids[former] or solid == old.solids[former])
-            and np.array_equal(sizes[number], old_sizes[former])
+    now = np.array([numbers.get(item.id, -1) for item in standing.program.items], dtype=np.int64)
+    same_size = (_bits(placed.sizes)[now] == _bits(old.sizes)).all(axis=1)
+    now[~same_size] = -1
+    for former in np.flatnonzero(now >= 0).tolist():
+        number = int(now[former])
+        item, before = program.items[number], standing.program.items[former]
+        solid, old_solid = placed.solids[number], old.solids[former]
+        if not (item is before or item.attachment_points == before.attachment_points) or not (
+            solid is old_solid or solid == old_solid
         ):
-            now[former] = number
+            now[former] = -1
     return now
 
 
