@@ -8,6 +8,7 @@ from typing import Any
 import httpx
 import pytest
 
+from benchmarks.random_programs import random_program
 from tests.output.gltf_reader import Asset
 from tests.service import SMALL
 
@@ -136,6 +137,26 @@ def test_an_edit_moves_nothing_that_it_does_not_concern(client: httpx.Client, pa
     assert {name: after[name] for name in before} == before
     posted = client.post("/v1/layout", json=client.get(path).json()).json()
     assert {item["id"] for item in posted["items"]} == set(after)
+
+
+@pytest.mark.parametrize("routing", ["elastic", "auto"])
+def test_an_edit_leaves_curves_by_relaxation_as_they_are(
+    client: httpx.Client, path: str, routing: str
+) -> None:
+    def curves() -> dict[str, Any]:
+        numbers = client.get(f"{path}/layout").json()
+        return {hyperedge["id"]: hyperedge["segments"] for hyperedge in numbers["hyperedges"]}
+
+    client.put(path, json=random_program(5, 0).document(routing=routing))
+    before = curves()
+    edit(client, path, {"type": "remove_hyperedge", "id": "e2"})
+    new = {"id": "new", "attachments": [{"item": "i0"}, {"item": "i3"}]}
+    edit(client, path, {"type": "add_hyperedge", "hyperedge": new})
+    del before["e2"]
+    assert before.items() <= curves().items()
+    part = client.get(f"{path}/render", params={"since": 3})
+    assert part.headers["tubeloom-since"] == "3"
+    assert nodes(part.content).keys() == {"new"}
 
 
 def test_who_has_a_view_is_told_so(client: httpx.Client, path: str) -> None:
