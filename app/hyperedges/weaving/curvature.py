@@ -13,6 +13,12 @@ PLACES = 24
 CLOSER = 5
 """Into so many parts the stretches beside the tightest place are divided."""
 
+TIMES = 2
+"""How often they are."""
+
+NEARLY = 0.4
+"""Squared curvatures over the largest: such peaks may be the higher ones, between two places."""
+
 HANDLES = np.array([0.38, 0.3, 0.46, 0.55, 0.24, 0.65, 0.8])
 """Lengths of handles to choose from, over the distance of the ends; the first are tried first."""
 
@@ -21,22 +27,37 @@ HANDLES = np.array([0.38, 0.3, 0.46, 0.55, 0.24, 0.65, 0.8])
 def least_radius(curve: Floats) -> float:
     """The least radius of curvature of a cubic (4, 3), infinite for a straight line.
 
-    It is looked for at `PLACES` + 1 places, then between those beside the tightest.
+    It is looked for at `PLACES` + 1 places, then between those beside the tightest, and beside any
+    other place where the curve is tighter than on both sides, and nearly as tight as there.
     """
     largest, tightest = 0.0, 0
     x = y = z = 0.0
+    bends = np.empty(PLACES + 1)
     for i in range(PLACES + 1):
-        bend = _squared_bend(curve, i / PLACES)
-        if bend > largest:
-            largest, tightest = bend, i
+        bends[i] = _squared_bend(curve, i / PLACES)
+        if bends[i] > largest:
+            largest, tightest = bends[i], i
         before_x, before_y, before_z = x, y, z
         x, y, z = _velocity(curve, i / PLACES)
         if x * before_x + y * before_y + z * before_z < 0.0:
             # More than a right angle between two places: it turns on the spot.
             return 0.0
-    for k in range(-CLOSER + 1, CLOSER):
-        t = (tightest + k / CLOSER) / PLACES
-        largest = max(largest, _squared_bend(curve, min(max(t, 0.0), 1.0)))
+    nearly = NEARLY * largest
+    for i in range(PLACES + 1):
+        is_peak = (i == 0 or bends[i] >= bends[i - 1]) and (i == PLACES or bends[i] >= bends[i + 1])
+        if i != tightest and not (is_peak and bends[i] > nearly):
+            continue
+        middle, step, highest = i / PLACES, 1.0 / PLACES, bends[i]
+        for _ in range(TIMES):
+            step /= CLOSER
+            best = middle
+            for k in range(-CLOSER + 1, CLOSER):
+                t = min(max(middle + k * step, 0.0), 1.0)
+                bend = _squared_bend(curve, t)
+                if bend > highest:
+                    highest, best = bend, t
+            middle = best
+        largest = max(largest, highest)
     return 1.0 / np.sqrt(largest) if largest > 0.0 else np.inf
 
 
@@ -71,11 +92,12 @@ def _squared_bend(curve: Floats, t: float) -> float:
         x, y, z = x + weight * a, y + weight * b, z + weight * c
         dx, dy, dz = dx + change * a, dy + change * b, dz + change * c
     square = x * x + y * y + z * z
-    if square <= 0.0:
+    cube = square * square * square
+    if cube <= 0.0:
         return np.inf
     nx, ny, nz = y * dz - z * dy, z * dx - x * dz, x * dy - y * dx
     # B' is three times (x, y, z), B'' six times (dx, dy, dz): 6 * 3 / 3 ** 3 = 2 / 3.
-    return float(4.0 / 9.0 * (nx * nx + ny * ny + nz * nz) / (square * square * square))
+    return float(4.0 / 9.0 * (nx * nx + ny * ny + nz * nz) / cube)
 
 
 @njit(cache=True)
