@@ -139,7 +139,8 @@ def _near_items(
 ) -> tuple[Indices, Floats]:
     """Pairs (n, 2) of a segment and a box, and where the box does not count, (n, 4).
 
-    For the segments ``asking`` (k,), in boxes ``around`` (k, 8).
+    That is where the segment's chain attaches to the box's item. For the segments ``asking`` (k,),
+    in boxes ``around`` (k, 8).
     """
     if items.tree is None or len(asking) == 0:
         return np.zeros((0, 2), dtype=np.int64), np.zeros((0, 4))
@@ -164,13 +165,17 @@ def _near_items(
     if len(own):
         middles = x[beads.segments[near[own, 0]]].mean(axis=1)
         best = np.full(len(own), np.inf)
+        chain = beads.chains[near[own, 0]]
         for step in range(int((ends - begins).max())):
             row = order[np.minimum(begins[own] + step, ends[own] - 1)]
             far = np.linalg.norm(chains.positions[row] - middles, axis=1)
+            # Another chain of the hyperedge has to keep clear of the item there too.
+            far[(chains.ends[chain] != chains.joins + row[:, None]).all(axis=1)] = np.inf
             nearer = far < best
             best[nearer] = far[nearer]
             exempt[own[nearer], :3] = chains.positions[row[nearer]]
-        exempt[own, 3] = OWN * (beads.radii[near[own, 0]] + clearance)
+        at_own = own[best < np.inf]
+        exempt[at_own, 3] = OWN * (beads.radii[near[at_own, 0]] + clearance)
     return near, exempt
 
 
