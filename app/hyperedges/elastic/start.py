@@ -22,6 +22,9 @@ PIECES = 16
 """Straight pieces of an arch at the start."""
 
 
+TURN = 3.0
+"""How far below where it ends to be straight a tube turns, over its radius."""
+
 WIDE = 12.0
 """Least length of the handles with which a chain begins at attachments, over the tube's radius."""
 
@@ -33,7 +36,7 @@ def chains_of(
 
     ``join_heights`` (k,): where joins are held, NaN where they are free. Where all items stand
     ``on_ground`` no bead comes nearer to it than its tube's radius, unless an attachment leads
-    there.
+    there, or so near to it that a tube could not turn.
     """
     counts = np.diff(placement.attachment_starts)[chosen]
     rows = rows_of(placement.attachment_starts, chosen)
@@ -60,8 +63,11 @@ def chains_of(
         join_starts[-1] + starts[owners, None] + edges,
         join_starts[owners, None] + edges - counts[owners, None],
     )
+    # A tube that leaves downwards needs room to turn before it comes up again.
+    turns = TURN * np.repeat(radii, counts) * np.maximum(-directions[:, 2], 0.0)
     lowest = np.minimum.reduceat(bases[:, 2], starts[:-1]) if len(chosen) else radii
-    floors = np.where((lowest >= radii) & on_ground, radii, -np.inf)
+    turned = np.minimum.reduceat(bases[:, 2] - turns, starts[:-1]) if len(chosen) else radii
+    floors = np.where((lowest >= radii) & on_ground, np.minimum(radii, turned), -np.inf)
     chains = Chains(
         ends=ends,
         local_ends=edges,
