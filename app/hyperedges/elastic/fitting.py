@@ -16,17 +16,8 @@ from app.arrays import Flags, Floats, Indices
 from app.hyperedges.elastic.beads import Beads
 from app.hyperedges.elastic.bending import join_tangent
 from app.hyperedges.elastic.chains import Chains
+from app.hyperedges.elastic.merging import GENTLE, TIGHT, sweep, wider
 from app.hyperedges.weaving.curvature import bend_between, least_radius
-
-GENTLE = 2.5
-"""Radius of curvature, over the tube's, at which no better handles are looked for."""
-
-TIGHT = 1.65
-"""The same below which the last piece before a join becomes one with those before."""
-
-
-MOST_SEGMENTS = 5
-"""So many at most."""
 
 
 class Pieces(NamedTuple):
@@ -130,22 +121,56 @@ def _fit(
             length = np.sqrt(speeds[k, 0] ** 2 + speeds[k, 1] ** 2 + speeds[k, 2] ** 2)
             for axis in range(3):
                 units[k, axis] = speeds[k, axis] / max(length, 1e-12)
-        first = _sweep(ends[c, 0] < joins, sweeps[c, 0], True, count, places, units, radii[c])
-        last = _sweep(ends[c, 1] < joins, sweeps[c, 1], False, count, places, units, radii[c])
+        first = sweep(ends[c, 0] < joins, sweeps[c, 0], True, count, places, units, radii[c])
+        last = sweep(ends[c, 1] < joins, sweeps[c, 1], False, count, places, units, radii[c])
+        joined = (ends[c, 0] < joins, ends[c, 1] < joins)
         if first + last > max(count, 2):
             # Both ends want more than there is: one cubic from end to end.
             first = last = count
-        begin = 0
-        while begin < count:
-            end = first if begin == 0 else begin + 1
-            if begin > 0 and begin >= count - last:
-                end = count
-            _set_cubic(places, speeds, begin, end, curves[made])
-            if end > begin + 1 or least_radius(curves[made]) < GENTLE * radii[c]:
-                bend_between(curves[made], units[begin], units[end], GENTLE * radii[c])
-            of[made], spans[made, 0], spans[made, 1] = c, begin, end
-            made += 1
-            begin = end
+        inner = (first if joined[0] else 0, count - last if joined[1] else count)
+        before_made = made
+        made = _cut(places, speeds, units, radii[c], count, first, last, inner, curves, spans, made)
+        of[before_made:made] = c
+    return made
+
+
+@njit(cache=True, error_model="numpy")
+def _cut(
+    places: Floats,
+    speeds: Floats,
+    units: Floats,
+    radius: float,
+    count: int,
+    first: int,
+    last: int,
+    inner: tuple[int, int],
+    curves: Floats,
+    spans: Indices,
+    made: int,
+) -> int:
+    """Write the cubics of a chain behind the ``made`` ones; how many there are then.
+
+    The ``first`` and the ``last`` one go over so many segments, the others over one, or over more
+    between two of the knots ``inner`` where they would bend too much.
+    """
+    begin, start = 0, made
+    while begin < count:
+        end = first if begin == 0 else begin + 1
+        if begin > 0 and begin >= count - last:
+            end = count
+        _set_cubic(places, speeds, begin, end, curves[made])
+        bend = least_radius(curves[made])
+        if end > begin + 1 or bend < GENTLE * radius:
+            bend = bend_between(curves[made], units[begin], units[end], GENTLE * radius)
+        if bend < TIGHT * radius and end == begin + 1:
+            begin, end = wider(inner, begin, places, units, radius, bend, curves[made])
+            # What it takes the place of.
+            while made > start and spans[made - 1, 0] >= begin:
+                curves[made - 1] = curves[made]
+                made -= 1
+        spans[made, 0], spans[made, 1] = begin, end
+        made += 1
+        begin = end
     return made
 
 
@@ -184,31 +209,3 @@ def _set_speed(speed: Floats, tangent: Floats, sign: float) -> None:
     length = np.sqrt(speed[0] ** 2 + speed[1] ** 2 + speed[2] ** 2)
     for axis in range(3):
         speed[axis] = sign * length * tangent[axis]
-
-
-@njit(cache=True, error_model="numpy")
-def _sweep(
-    at_join: bool,
-    wanted: int,
-    at_start: bool,
-    count: int,
-    places: Floats,
-    units: Floats,
-    radius: float,
-) -> int:
-    """Over how many segments the cubic at an end goes: more where one would be too tight."""
-    if not at_join or count < 2:
-        return 1
-    if wanted > 1:
-        return min(wanted, count)
-    curve = np.empty((4, 3))
-    best, widest = 1, 0.0
-    for k in range(1, min(MOST_SEGMENTS, count) + 1):
-        begin, end = (0, k) if at_start else (count - k, count)
-        curve[0], curve[3] = places[begin], places[end]
-        radius_there = bend_between(curve, units[begin], units[end], GENTLE * radius)
-        if radius_there > widest:
-            best, widest = k, radius_there
-        if widest >= TIGHT * radius:
-            break
-    return best
