@@ -15,8 +15,12 @@ from app.placement.placement import Placement
 UPWARDS = 0.7
 """Height of a unit direction from which on an attachment points upwards."""
 
-RISE = 0.18
-"""Height of an arch over its span."""
+RISE, FAR = 0.19, 170.0
+"""Height of an arch over its span, up to a span of so many radii.
+
+Beyond that arches rise by the square root of their spans: else the widest would stand before all
+that is behind them.
+"""
 
 PIECES = 16
 """Straight pieces of an arch at the start."""
@@ -87,13 +91,13 @@ def chains_of(
 
 
 def curvatures_of(chains: Chains) -> Floats:
-    """Of arches that rise by `RISE` of their spans, (h,); 0 where nothing hangs.
+    """Of arches over their spans, (h,); 0 where nothing hangs.
 
     One curvature for all chains of a hyperedge, so that they meet in one dome: a parabola over a
     span d that rises by R d has the second derivative 8 R / d.
     """
-    spans = np.maximum(_spans(chains), 2.0 * SPACING * chains.radii)
-    return np.where(chains.hung, 8.0 * RISE / spans, 0.0)
+    spans, rises = _arches(chains)
+    return np.where(chains.hung, 8.0 * rises / spans, 0.0)
 
 
 def start_lines(chains: Chains, joins: Floats) -> Polylines:
@@ -136,12 +140,13 @@ def _stubs(radii: Floats, counts: Indices) -> Floats:
     return np.repeat(SPACING * radii, counts)
 
 
-def _spans(chains: Chains) -> Floats:
-    """Diagonals of hyperedges seen from above, (h,)."""
+def _arches(chains: Chains) -> tuple[Floats, Floats]:
+    """Diagonals of hyperedges seen from above, and how high arches rise over these; (h,) each."""
     starts = chains.attachment_starts[:-1]
     lows = np.minimum.reduceat(chains.positions[:, :2], starts, axis=0)
     highs = np.maximum.reduceat(chains.positions[:, :2], starts, axis=0)
-    return np.asarray(np.linalg.norm(highs - lows, axis=1))
+    spans = np.maximum(np.linalg.norm(highs - lows, axis=1), 2.0 * SPACING * chains.radii)
+    return spans, RISE * np.minimum(1.0, np.sqrt(FAR * chains.radii / spans))
 
 
 def _raise(chains: Chains, bases: Floats, joins: Floats) -> None:
@@ -151,7 +156,8 @@ def _raise(chains: Chains, bases: Floats, joins: Floats) -> None:
     hung: Flags = chains.hung[owners]
     heights = np.add.reduceat(bases[:, 2], chains.attachment_starts[:-1])
     heights /= np.diff(chains.attachment_starts)
-    tops = heights + RISE * _spans(chains)
+    spans, rises = _arches(chains)
+    tops = heights + rises * spans
     joins[hung, 2] = tops[owners][hung]
     held = ~np.isnan(chains.heights[owners])
     joins[held, 2] = chains.heights[owners][held]
