@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,8 +12,9 @@ from app.arrays import Floats, Indices
 from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacles import Obstacles, obstacle_gaps, obstacles_of
 from app.hyperedges.clearance.own import OwnContacts, own_contacts
-from app.hyperedges.clearance.pairs import Gaps, gaps, near_pairs
+from app.hyperedges.clearance.pairs import Gaps, close_parts, gaps, joined, near_pairs
 from app.hyperedges.routing import Routing
+from app.hyperedges.stopping import StoppedError, unchecked
 from app.placement.placement import Placement
 
 AHEAD = 2.0
@@ -20,6 +22,9 @@ AHEAD = 2.0
 
 AT_ONCE = 16384
 """Pairs measured before the smallest distance so far is taken into account."""
+
+MOST_CONFLICTS = 250_000
+"""Pairs of hyperedges in conflict beyond which no others are looked for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +74,10 @@ class Certificate:
     could not be decided is in it. ``minimum`` is a lower bound of the smallest of these distances,
     within a hundredth of it where ``nearest`` says what is there; without ``nearest`` nothing is as
     near as that. ``own`` are hyperedges that touch themselves, which is for them to decide.
+
+    Where not everything was measured it is not ``complete``: ``conflicts`` are those found so far,
+    nothing is ``certified``, there is no ``nearest``, and ``minimum`` is what tubes that lie on
+    each other would have.
     """
 
     required: float
@@ -77,26 +86,33 @@ class Certificate:
     nearest: Contact | None
     conflicts: Conflicts
     own: OwnContacts
+    complete: bool = True
 
 
-def certify(routing: Routing, placement: Placement, clearance: float) -> Certificate:
+def certify(
+    routing: Routing,
+    placement: Placement,
+    clearance: float,
+    check: Callable[[], None] = unchecked,
+) -> Certificate:
     """The certificate of a routing, for surfaces ``clearance`` apart.
 
     Distances are bounded by subdivision, never by sampling, in floating point with more room for
     rounding than it can take (`app.hyperedges.clearance.cubic`). A pair that is exactly
     ``clearance`` apart cannot be decided, and is a conflict. Hyperedges that share an attachment
     are one too. Without conflicts the smallest distance is looked for as far as the clearance and
-    the diameter of the thickest tube.
+    the diameter of the thickest tube. Beyond `MOST_CONFLICTS`, or where ``check`` raises
+    `app.hyperedges.stopping.StoppedError`, the rest is left, and the certificate not complete.
 
     Raises `ValueError` where a control point, a radius or an item's place is not finite.
     """
     _refuse_infinite(routing, placement)
     scene = _Scene.of(routing, placement, clearance)
-    near = scene.near(clearance)
-    found = near.measured(scene.around.obstacles, clearance)
-    conflicts = _once(near.contacts(scene.around.obstacles, found), found.lower < clearance)
+    conflicts, complete = scene.conflicts(clearance, check)
     nearest: Contact | None
-    if len(conflicts):
+    if not complete:
+        minimum, nearest = -2.0 * float(routing.radii.max(initial=0.0)), None
+    elif len(conflicts):
         nearest = _nearest(conflicts)
         minimum = nearest.lower
     else:
@@ -105,7 +121,13 @@ def certify(routing: Routing, placement: Placement, clearance: float) -> Certifi
         # The clearance is proven already, and may be within a hundredth of the smallest distance.
         minimum = max(minimum, clearance)
     return Certificate(
-        clearance, not len(conflicts), minimum, nearest, conflicts, own_contacts(routing)
+        clearance,
+        complete and not len(conflicts),
+        minimum,
+        nearest,
+        conflicts,
+        own_contacts(routing),
+        complete,
     )
 
 
@@ -127,6 +149,48 @@ class _Scene:
             routing.radii[owners],
             ItemsAround.of(placement, obstacles_of(placement).bodies, clearance),
         )
+
+    def conflicts(self, clearance: float, check: Callable[[], None]) -> tuple[Conflicts, bool]:
+        """What is not proven to be clear, and whether that is all."""
+        beside = self.around.near(self.points, self.owners, self.radii, clearance)
+        parts: list[tuple[Indices, Gaps]] = []
+        complete = True
+        try:
+            for pairs, found in close_parts(
+                self.points, self.owners, self.radii, clearance, check=check
+            ):
+                parts.append(self._nearest(pairs, found))
+                if sum(len(part) for part, _ in parts) > MOST_CONFLICTS:
+                    parts = [self._nearest(*joined(parts))]
+                    complete = len(parts[0][0]) <= MOST_CONFLICTS
+                    if not complete:
+                        break
+        except StoppedError:
+            complete = False
+        tubes, found = joined(parts)
+        items = obstacle_gaps(
+            beside.points, beside.radii, self.around.obstacles, beside.pairs, clearance
+        )
+        everything = Gaps(
+            np.concatenate([found.lower, items.lower]),
+            np.concatenate([found.upper, items.upper]),
+            np.concatenate([found.at, items.at]),
+            np.concatenate([found.places, items.places]),
+        )
+        near = _Near(beside.points, beside.owners, beside.radii, tubes, beside.pairs)
+        contacts = near.contacts(self.around.obstacles, everything)
+        return _once(contacts, everything.lower < clearance), complete
+
+    def _nearest(self, pairs: Indices, found: Gaps) -> tuple[Indices, Gaps]:
+        """Of the ``pairs`` (m, 2) of segments the nearest one for each pair of hyperedges."""
+        owners = self.owners[pairs]
+        order = np.lexsort((pairs[:, 1], pairs[:, 0], found.lower, owners[:, 1], owners[:, 0]))
+        owners = owners[order]
+        new = np.ones(len(order), dtype=np.bool_)
+        new[1:] = (owners[1:] != owners[:-1]).any(axis=1)
+        rows = order[new]
+        kept = Gaps(found.lower[rows], found.upper[rows], found.at[rows], found.places[rows])
+        return pairs[rows], kept
 
     def near(self, reach: float) -> _Near:
         """What may be nearer than ``reach``."""

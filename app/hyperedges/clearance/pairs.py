@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,9 +14,13 @@ from app.hyperedges.clearance.box_tree import in_parts, meeting, plant
 from app.hyperedges.clearance.distance import search
 from app.hyperedges.clearance.few_boxes import FEW, meeting_among
 from app.hyperedges.clearance.search import workspace
+from app.hyperedges.stopping import unchecked
 
 FINEST = 1e-3
 """Of the tubes' radii: to so much times the tolerance surfaces that just touch are measured."""
+
+ASKED_AT_ONCE, MANY = 1024, 1_000_000
+"""Segments whose pairs are measured at once, at first; half as many where that makes many pairs."""
 
 ROUNDING = 1e-14
 """Of the largest coordinate: boxes are wider by this, so that rounding loses no pair."""
@@ -79,6 +84,76 @@ def near_pairs(
     # In the tree's order, because neighbours look through the same nodes.
     asking = tree.order[asked[tree.order]]
     return meeting(tree, around, asking, (owners, owners), asked)
+
+
+def close_pairs(
+    control_points: Floats,
+    owners: Indices,
+    radii: Floats,
+    clearance: float,
+    active: NDArray[np.bool_] | None = None,
+    tolerance: float = 0.01,
+    check: Callable[[], None] = unchecked,
+) -> tuple[Indices, Gaps]:
+    """The `near_pairs` (m, 2) whose tubes are not proven ``clearance`` apart, and their `gaps`.
+
+    ``check`` is called now and then, and may raise to end it.
+    """
+    parts = close_parts(control_points, owners, radii, clearance, active, tolerance, check)
+    return joined(list(parts))
+
+
+def close_parts(
+    control_points: Floats,
+    owners: Indices,
+    radii: Floats,
+    clearance: float,
+    active: NDArray[np.bool_] | None = None,
+    tolerance: float = 0.01,
+    check: Callable[[], None] = unchecked,
+) -> Iterator[tuple[Indices, Gaps]]:
+    """The same part by part: all pairs that are near at once may be more than memory holds."""
+    check()
+    if len(control_points) ** 2 <= 2 * FEW:
+        pairs = near_pairs(control_points, owners, radii, clearance, active)
+        yield _close(control_points, radii, pairs, clearance, tolerance)
+        return
+    around = boxes(control_points, radii + 0.5 * clearance)
+    asked = np.ones(len(owners), dtype=np.bool_) if active is None else active
+    tree = plant(around)
+    asking = tree.order[asked[tree.order]]
+    begin, size = 0, ASKED_AT_ONCE
+    while begin < len(asking):
+        check()
+        some = asking[begin : begin + size]
+        pairs = meeting(tree, around, some, (owners, owners), asked)
+        yield _close(control_points, radii, pairs, clearance, tolerance)
+        begin += size
+        size = max(size // 2, 1) if len(pairs) > MANY else 2 * size
+
+
+def joined(parts: list[tuple[Indices, Gaps]]) -> tuple[Indices, Gaps]:
+    """Parts of pairs and their gaps as one, sorted by the pairs."""
+    pairs = np.concatenate([np.zeros((0, 2), dtype=np.int64), *(pairs for pairs, _ in parts)])
+    order = np.lexsort((pairs[:, 1], pairs[:, 0]))
+    gaps_ = [gaps for _, gaps in parts]
+    return pairs[order], Gaps(
+        np.concatenate([np.zeros(0), *(each.lower for each in gaps_)])[order],
+        np.concatenate([np.zeros(0), *(each.upper for each in gaps_)])[order],
+        np.concatenate([np.zeros((0, 2)), *(each.at for each in gaps_)])[order],
+        np.concatenate([np.zeros((0, 3)), *(each.places for each in gaps_)])[order],
+    )
+
+
+def _close(
+    control_points: Floats, radii: Floats, pairs: Indices, clearance: float, tolerance: float
+) -> tuple[Indices, Gaps]:
+    """Those of the ``pairs`` (m, 2) that are too near, and their gaps."""
+    found = gaps(control_points, radii, pairs, clearance, tolerance)
+    close = found.lower < clearance
+    return pairs[close], Gaps(
+        found.lower[close], found.upper[close], found.at[close], found.places[close]
+    )
 
 
 def gaps(

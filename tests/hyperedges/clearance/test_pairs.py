@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
+from app.hyperedges.clearance import pairs
 from app.hyperedges.clearance.pairs import boxes, gaps, near_pairs
 from tests.hyperedges.clearance.curves import pairs_of_curves, points_at, sampled_distance
 
@@ -127,3 +128,23 @@ def test_a_pair_is_decided_a_little_above_and_below_what_is_enough(beyond: float
         found = gaps(lines, np.array([0.1, 0.1]), np.array([[0, 1]]), 0.05)
         assert (found.lower[0] >= 0.05) == (sign > 0)
         assert (found.upper[0] < 0.05) == (sign < 0)
+
+
+@pytest.mark.parametrize(("at_once", "many"), [(1, 1), (3, 20), (1000, 1000)])
+def test_in_parts_there_are_the_same_close_pairs(
+    monkeypatch: pytest.MonkeyPatch, at_once: int, many: int
+) -> None:
+    monkeypatch.setattr(pairs, "ASKED_AT_ONCE", at_once)
+    monkeypatch.setattr(pairs, "MANY", many)
+    chance = np.random.default_rng(5)
+    curves = chance.uniform(0.0, 6.0, (400, 1, 3)) + chance.uniform(-1.0, 1.0, (400, 4, 3))
+    owners, radii = np.repeat(np.arange(100), 4), np.full(400, 0.1)
+    for active in (None, chance.uniform(size=400) < 0.3):
+        near = near_pairs(curves, owners, radii, 0.2, active)
+        found = gaps(curves, radii, near, 0.2)
+        close = found.lower < 0.2
+        assert 50 < close.sum() < len(near)
+        made, apart = pairs.close_pairs(curves, owners, radii, 0.2, active)
+        np.testing.assert_array_equal(made, near[close])
+        np.testing.assert_array_equal(apart.lower, found.lower[close])
+        np.testing.assert_array_equal(apart.places, found.places[close])
