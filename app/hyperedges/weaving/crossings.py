@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from app.arrays import Floats, Indices
+from app.hyperedges.stopping import unchecked
 
 MARGIN = 1.02
 """Plans count as crossing up to this many times the distance that tubes need."""
+
+AT_ONCE = 2048
+"""Legs between two looks whether to go on."""
 
 
 class Crossings(NamedTuple):
@@ -30,20 +35,24 @@ def find_crossings(
     still_owners: Indices,
     radii: Floats,
     clearance: float,
+    check: Callable[[], None] = unchecked,
 ) -> Crossings:
     """Crossings of straight legs (m, 2, 2) with each other and with those that stand still.
 
     Those are (n, 2, 2); among themselves they do not count. ``owners`` (m,) and ``still_owners``
     (n,) are their hyperedges. Tubes with ``radii`` (h,) need r1 + r2 + ``clearance`` between their
-    centre lines.
+    centre lines. ``check`` is called now and then, and may raise to end it.
     """
     order = np.argsort(legs[:, :, 0].min(axis=1), kind="stable")
-    pairs = np.concatenate(
-        [
-            _sweep(legs[order], owners[order], radii, clearance),
-            _compare(legs, owners, still_legs, still_owners, radii, clearance),
-        ]
-    )
+    sorted_legs, sorted_owners = legs[order], owners[order]
+    parts = []
+    for begin in range(0, len(legs), AT_ONCE):
+        check()
+        end = min(begin + AT_ONCE, len(legs))
+        parts.append(_sweep(begin, end, sorted_legs, sorted_owners, radii, clearance))
+    check()
+    parts.append(_compare(legs, owners, still_legs, still_owners, radii, clearance))
+    pairs = np.concatenate(parts)
     count = len(radii)
     codes = np.sort(
         np.concatenate([pairs[:, 0] * count + pairs[:, 1], pairs[:, 1] * count + pairs[:, 0]])
@@ -54,16 +63,21 @@ def find_crossings(
 
 
 @njit(cache=True)
-def _sweep(legs: Floats, owners: Indices, radii: Floats, clearance: float) -> Indices:
-    """Pairs of hyperedges with legs too near, some of them several times; legs sorted by x."""
-    pairs = np.empty((4 * len(legs) + 16, 2), np.int64)
+def _sweep(
+    first: int, last: int, legs: Floats, owners: Indices, radii: Floats, clearance: float
+) -> Indices:
+    """Pairs of hyperedges with legs too near, some of them several times; legs sorted by x.
+
+    One of each is among the legs from ``first`` to ``last``, the other behind it.
+    """
+    pairs = np.empty((4 * (last - first) + 16, 2), np.int64)
     count = 0
     widest = 0.0
     for r in radii:
         widest = max(widest, r)
     # Remembers with whom a hyperedge was last paired, which saves most repetitions.
     lately = np.full(len(radii), -1)
-    for i in range(len(legs)):
+    for i in range(first, last):
         k = owners[i]
         right = max(legs[i, 0, 0], legs[i, 1, 0]) + MARGIN * (radii[k] + widest + clearance)
         low = min(legs[i, 0, 1], legs[i, 1, 1])

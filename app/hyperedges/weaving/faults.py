@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,8 @@ from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
 from app.hyperedges.clearance.obstacles import near_obstacles, obstacle_gaps
-from app.hyperedges.clearance.pairs import gaps, near_pairs
+from app.hyperedges.clearance.pairs import close_pairs
+from app.hyperedges.stopping import unchecked
 from app.hyperedges.weaving.threads import Surroundings
 
 PINCH = 1.53
@@ -46,23 +48,24 @@ def find_faults(
     clearance: float,
     surroundings: Surroundings,
     active: NDArray[np.bool_],
+    check: Callable[[], None] = unchecked,
 ) -> Faults:
     """What is nearer than ``clearance`` among ``segments`` (s, 4, 3) and items.
 
     ``owners`` (s,) are the segments' hyperedges, ``radii`` (s,) their tubes'. Only what has to do
-    with ``active`` (s,) segments is looked at.
+    with ``active`` (s,) segments is looked at. ``check`` is called now and then, and may raise to
+    end it.
     """
-    pairs = near_pairs(segments, owners, radii, clearance, active)
-    apart = gaps(segments, radii, pairs, clearance, TOLERANCE)
+    pairs, apart = close_pairs(segments, owners, radii, clearance, active, TOLERANCE, check)
+    check()
     obstacles, attached = surroundings.obstacles, surroundings.attached
     beside = near_obstacles(segments, owners, radii, obstacles, attached, clearance, active)
     away = obstacle_gaps(segments, radii, obstacles, beside, clearance, TOLERANCE)
-    near = apart.lower < clearance
-    t = apart.at[near]
-    z = segments[pairs[near], :, 2]
+    t = apart.at
+    z = segments[pairs, :, 2]
     return Faults(
-        pairs[near],
-        clearance - apart.lower[near],
+        pairs,
+        clearance - apart.lower,
         np.asarray(
             (1 - t) ** 3 * z[..., 0]
             + 3 * t * (1 - t) ** 2 * z[..., 1]

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Floats
+from app.hyperedges.stopping import unchecked
 from app.hyperedges.weaving.courses import SOFT
 from app.hyperedges.weaving.loom import Check, Loom
 from app.hyperedges.weaving.ways import Ways
@@ -22,10 +25,16 @@ STEP = 1.6
 """How far one is lifted, over what is lacking: arches rise less beside their tops."""
 
 
-def lift(loom: Loom, planes: Floats, fixed: NDArray[np.bool_]) -> Floats:
+def lift(
+    loom: Loom,
+    planes: Floats,
+    fixed: NDArray[np.bool_],
+    check: Callable[[], None] = unchecked,
+) -> Floats:
     """Planes (h,) raised where one soft arch passes too closely above another.
 
     Those that are ``fixed`` (h,) are not. What is above the other there rises.
+    ``check`` is called now and then, and may raise to end it.
     """
     count = len(loom.owners)
     soft = np.full(count, SOFT)
@@ -40,10 +49,10 @@ def lift(loom: Loom, planes: Floats, fixed: NDArray[np.bool_]) -> Floats:
     highest[fixed] = -np.inf
     active = np.ones(count, dtype=np.bool_)
     for _ in range(ROUNDS):
-        check = loom.check(loom.lay(nowhere, soft, lifted), active)
-        if len(check.near) == 0 or len(check.near) > CROWDED * len(threads.radii):
+        found = loom.check(loom.lay(nowhere, soft, lifted), active, check)
+        if len(found.near) == 0 or len(found.near) > CROWDED * len(threads.radii):
             break
-        rise = _rises(check, len(planes))
+        rise = _rises(found, len(planes))
         rise[lifted + rise > highest] = 0.0
         if not rise.any():
             break

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
+from app.hyperedges.stopping import unchecked
 from app.hyperedges.weaving.fabric import Fabric, lay_courses
 from app.hyperedges.weaving.faults import PINCH, Faults, find_faults
 from app.hyperedges.weaving.plan import Plan
@@ -72,8 +74,16 @@ class Loom:
             self.radii,
         )
 
-    def check(self, fabric: Fabric, active: NDArray[np.bool_]) -> Check:
-        """What is wrong around the ``active`` (e,) edges of a fabric."""
+    def check(
+        self,
+        fabric: Fabric,
+        active: NDArray[np.bool_],
+        check: Callable[[], None] = unchecked,
+    ) -> Check:
+        """What is wrong around the ``active`` (e,) edges of a fabric.
+
+        ``check`` is called now and then, and may raise to end it.
+        """
         woven = len(self.threads.radii)
         edges = np.repeat(np.arange(len(active)), np.diff(fabric.starts))
         owners = np.repeat(self.owners, np.diff(fabric.starts))
@@ -92,6 +102,7 @@ class Loom:
             self.clearance,
             self.surroundings.near(low, high),
             np.append(active, False)[edges],
+            check,
         )
         return Check(
             faults,

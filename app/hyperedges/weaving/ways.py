@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +12,8 @@ from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
 from app.grouped import starts_of
-from app.hyperedges.clearance.box_tree import in_parts
+from app.hyperedges.clearance.box_tree import CORES, in_parts
+from app.hyperedges.stopping import unchecked
 from app.hyperedges.weaving.detours import find_way
 from app.hyperedges.weaving.grid import Grid, collect
 from app.hyperedges.weaving.plan import BEND, NEXT, Plan
@@ -25,6 +28,9 @@ BESIDE = 12.0
 
 FEW = 100
 """Hyperedges for which a thread is worth while."""
+
+AT_ONCE = FEW * CORES
+"""Hyperedges between two looks whether to go on."""
 
 WIDTH = 1.05
 """Ways go around feet at so many times the distance that is needed."""
@@ -54,25 +60,36 @@ def find_ways(
     planes: Floats,
     radii: Floats,
     clearance: float,
+    check: Callable[[], None] = unchecked,
 ) -> Ways:
     """Ways between ``ends`` (e, 2, 2), around feet of hyperedges whose ``planes`` are higher.
 
     ``leaving`` (e, 2, 2) are the directions in which they have left joins. ``feet`` (a, 2) are of
     the hyperedges ``feet_owners`` (a,); ``planes`` and ``radii`` (h,).
+    ``check`` is called now and then, and may raise to end it.
     """
-    parts = in_parts(
-        len(plan.starts) - 1,
-        lambda begin, end: _find(
+
+    def find(begin: int, end: int) -> Ways:
+        return _find(
             begin, end, plan, leaving, ends, grid, feet, feet_owners, planes, radii, clearance
-        ),
-        few=FEW,
-    )
+        )
+
+    parts: list[Ways] = []
+    count = len(plan.starts) - 1
+    for first in range(0, max(count, 1), AT_ONCE):
+        check()
+        some = min(AT_ONCE, count - first)
+        parts += in_parts(some, partial(_from, find, first), few=FEW)
     counts = np.concatenate([np.diff(part.starts) for part in parts])
     return Ways(
         starts_of(counts),
         np.concatenate([part.corners for part in parts]),
         np.concatenate([part.blocked for part in parts]),
     )
+
+
+def _from(find: Callable[[int, int], Ways], first: int, begin: int, end: int) -> Ways:
+    return find(first + begin, first + end)
 
 
 @njit(cache=True, nogil=True)

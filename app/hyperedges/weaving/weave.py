@@ -11,11 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
+from app.hyperedges.stopping import StoppedError
 from app.hyperedges.weaving.courses import AROUND, SOFT, STEEP
 from app.hyperedges.weaving.crossings import find_crossings
 from app.hyperedges.weaving.fabric import Fabric
@@ -24,6 +26,7 @@ from app.hyperedges.weaving.joins import settle_joins
 from app.hyperedges.weaving.legs import around_legs, control_legs, direct_legs
 from app.hyperedges.weaving.lifting import lift
 from app.hyperedges.weaving.loom import Check, Loom
+from app.hyperedges.weaving.loose import lay_loosely
 from app.hyperedges.weaving.plan import Plan, draw_plan
 from app.hyperedges.weaving.storeys import first_fit, highest_under, stack
 from app.hyperedges.weaving.tangents import choose_tangents, inner_ends
@@ -38,7 +41,10 @@ CELL = 12.0
 """Size of the cells in which feet are sorted, over the mean radius."""
 
 Progress = Callable[[float], None]
-"""Told which share of the work is done at least, from 0 to 1. May raise to end it."""
+"""Told which share of the work is done at least, from 0 to 1.
+
+It may raise to end it; where it raises `StoppedError`, the best so far is what comes of it.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,6 +54,7 @@ class Weave:
     ``leaving`` (e, 2, 2): the directions in which edges leave joins. ``hit`` (g,): which of the
     hyperedges that stand still are too near. ``faults`` counts what is too near, ``pinches`` edges
     that bend too much.
+    Where the work was stopped before anything was looked at, it is not ``tried``: all counts are 0.
     """
 
     plan: Plan
@@ -57,6 +64,7 @@ class Weave:
     hit: NDArray[np.bool_]
     faults: int
     pinches: int
+    tried: bool = True
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,8 +85,36 @@ def weave(
 ) -> Weave:
     """Curves for ``threads`` that keep clear of each other, of what stands ``still``, and of items.
 
-    Hyperedges in ``surroundings.attached`` are numbered threads first.
+    Hyperedges in ``surroundings.attached`` are numbered threads first. Where the work is stopped
+    before there are any, each hyperedge gets curves that care about nothing else.
     """
+    best: list[Weave] = []
+    try:
+        _weave(threads, still, surroundings, clearance, progress, best)
+    except StoppedError:
+        if not best:
+            return _untried(threads, still)
+    return best[-1]
+
+
+def _untried(threads: Threads, still: Still) -> Weave:
+    """Each hyperedge in a plane of its own, whatever else there is."""
+    plan, fabric, leaving = lay_loosely(threads)
+    hit = np.zeros(len(still.planes), dtype=np.bool_)
+    return Weave(plan, fabric, leaving, threads.lows, hit, 0, 0, tried=False)
+
+
+def _weave(
+    threads: Threads,
+    still: Still,
+    surroundings: Surroundings,
+    clearance: float,
+    progress: Progress,
+    best: list[Weave],
+) -> None:
+    """Add what is better than all before to ``best``, until nothing more is tried."""
+    check = partial(progress, 0.0)
+    check()
     drawn = draw_plan(threads.positions, threads.directions, threads.starts, threads.radii)
     woven = len(threads.radii)
     edges = np.repeat(np.arange(woven), np.diff(drawn.edge_starts))
@@ -93,28 +129,29 @@ def weave(
     )
     lows = np.concatenate([lows, still.planes])
     fixed = np.concatenate([threads.given, np.ones(len(still.planes), dtype=np.bool_)])
-    crossings = find_crossings(direct, edges, still_legs, still_owners, radii, clearance)
+    crossings = find_crossings(direct, edges, still_legs, still_owners, radii, clearance, check)
     tops = highest_under(
         still_legs, still_owners, feet.places, feet.owners, lows, radii, clearance, woven
     )
     order = _short_first(drawn, feet.places)
     planes = first_fit(crossings, order[~fixed[order]], lows, tops, radii, clearance)
     loom = _thread(drawn, edges, feet, threads, still, surroundings, planes, radii, clearance)
-    lifted = lift(loom, planes, fixed)
+    lifted = lift(loom, planes, fixed, check)
     lows, planes = np.where(lifted > planes, lifted, lows), lifted
-    best, troubled = _try(loom, feet, planes, lows, fixed)
+    made, troubled = _try(loom, feet, planes, lows, fixed, check)
+    best.append(made)
     for attempt in range(1, ATTEMPTS):
         troubled = troubled[~fixed[troubled]]
         if len(troubled) == 0:
             break
-        progress(attempt / ATTEMPTS)
+        check = partial(progress, attempt / ATTEMPTS)
+        check()
         planes = planes.copy()
         planes[troubled] = planes.max(initial=0.0) + 1.0 + np.arange(len(troubled))
         loom = _thread(drawn, edges, feet, threads, still, surroundings, planes, radii, clearance)
-        made, troubled = _try(loom, feet, planes, lows, fixed)
-        if (made.faults, made.pinches) < (best.faults, best.pinches):
-            best = made
-    return best
+        made, troubled = _try(loom, feet, planes, lows, fixed, check)
+        if (made.faults, made.pinches) < (best[-1].faults, best[-1].pinches):
+            best.append(made)
 
 
 def _all_feet(plan: Plan, threads: Threads, still: Still, radius: float) -> _Feet:
@@ -159,14 +196,19 @@ def _thread(
 
 
 def _try(
-    loom: Loom, feet: _Feet, planes: Floats, lows: Floats, fixed: NDArray[np.bool_]
+    loom: Loom,
+    feet: _Feet,
+    planes: Floats,
+    lows: Floats,
+    fixed: NDArray[np.bool_],
+    check: Callable[[], None],
 ) -> tuple[Weave, Indices]:
     """Curves for the order of ``planes``, and the threads that want a higher one."""
     plan, leaving, ends, edges = loom.plan, loom.leaving, loom.ends, loom.owners
     still, radii, clearance = loom.still, loom.radii, loom.clearance
     woven = len(loom.threads.radii)
     around = (feet.grid, feet.places, feet.owners, planes, radii)
-    ways = find_ways(plan, leaving, ends, *around, clearance)
+    ways = find_ways(plan, leaving, ends, *around, clearance, check)
     legs, owners = around_legs(plan, ends, edges, ways)
     legs, owners = np.concatenate([direct_legs(plan), legs]), np.concatenate([edges, owners])
     above = pass_above(legs, owners, radii, clearance, loom.surroundings.obstacles, lows)
@@ -178,13 +220,14 @@ def _try(
         np.repeat(still.owners + woven, 3),
         radii,
         clearance,
+        check,
     )
     order = np.argsort(planes, kind="stable")
     planes = stack(crossings, order, lows, fixed, radii, clearance)
 
-    fabric, check = _harden(loom, ways, planes)
+    fabric, found = _harden(loom, ways, planes, check)
     hit = np.zeros(len(still.planes), dtype=np.bool_)
-    standing = check.hyperedges[check.hyperedges >= woven]
+    standing = found.hyperedges[found.hyperedges >= woven]
     hit[standing - woven] = True
     made = Weave(
         plan,
@@ -192,13 +235,15 @@ def _try(
         leaving,
         planes[:woven],
         hit,
-        check.faults.count,
-        int(check.pinched.sum()),
+        found.faults.count,
+        int(found.pinched.sum()),
     )
-    return made, _troubled(check, check.pinched | ways.blocked, edges, planes, woven)
+    return made, _troubled(found, found.pinched | ways.blocked, edges, planes, woven)
 
 
-def _harden(loom: Loom, ways: Ways, planes: Floats) -> tuple[Fabric, Check]:
+def _harden(
+    loom: Loom, ways: Ways, planes: Floats, check: Callable[[], None]
+) -> tuple[Fabric, Check]:
     """Courses that are made stricter where they are too near to something, and what that leaves.
 
     Of two that are too near the softer one is made stricter, or both.
@@ -208,20 +253,20 @@ def _harden(loom: Loom, ways: Ways, planes: Floats) -> tuple[Fabric, Check]:
     active = np.ones(count, dtype=np.bool_)
     while True:
         fabric = loom.lay(ways, strictness, planes)
-        check = loom.check(fabric, active)
+        found = loom.check(fabric, active, check)
         level = np.append(strictness, AROUND)
-        first, second = level[check.near].T
+        first, second = level[found.near].T
         softer = np.zeros(count + 1, dtype=np.bool_)
-        softer[check.near[first <= second, 0]] = True
-        softer[check.near[second <= first, 1]] = True
-        softer[check.at_items] = True
+        softer[found.near[first <= second, 0]] = True
+        softer[found.near[second <= first, 1]] = True
+        softer[found.at_items] = True
         changed = softer[:-1] & (strictness < AROUND)
         # Going around nothing does not unbend an edge.
-        changed |= check.pinched & (strictness < STEEP)
+        changed |= found.pinched & (strictness < STEEP)
         if not changed.any():
-            return fabric, check
+            return fabric, found
         strictness[changed] += 1
-        active = changed | (check.edges & (strictness == AROUND))
+        active = changed | (found.edges & (strictness == AROUND))
 
 
 def _troubled(
