@@ -7,6 +7,7 @@ whatever the sizes of what is in them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ from app.hyperedges.elastic.capsules import within
 from app.hyperedges.elastic.chains import Chains
 from app.hyperedges.elastic.relaxation import Near
 from app.hyperedges.elastic.rounded_boxes import Boxes
+from app.hyperedges.stopping import unchecked
 
 MOST_NEAR = 8_000_000
 """Pairs of segments, or of a segment and a box: some gigabyte of memory."""
@@ -33,6 +35,9 @@ OWN = 3.0
 
 FROM_ATTACHMENT, FROM_JOIN = 3.0, 2.6
 """How far a join is kept from its attachments, and from other joins, in distances of beads."""
+
+AT_ONCE = 8192
+"""Segments between two looks whether to go on."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,13 +79,14 @@ def find_near(
     size: float,
     skin: float,
     among: Indices | None = None,
+    check: Callable[[], None] = unchecked,
 ) -> Near:
     """What may come too near to what moves, until a bead has gone half of ``skin``.
 
     ``rooms`` (s,), ``size`` and ``skin`` as for `app.hyperedges.elastic.relaxation.relax`;
     ``stretch`` (c,) as for `app.hyperedges.elastic.run.State`; ``moving`` (b,). Only the segments
-    ``among`` (k,), ascending, count, if they are given. Raises `TooManyPairs` where that is more
-    than `MOST_NEAR`.
+    ``among`` (k,), ascending, count, if they are given. ``check`` is called now and then, and may
+    raise to end it. Raises `TooManyPairs` where there are more than `MOST_NEAR`.
     """
     some = np.arange(len(beads.segments)) if among is None else among
     segments, of = beads.segments[some], beads.chains[some]
@@ -96,9 +102,18 @@ def find_near(
         boxes, asking, of = around[beside], asked[beside], of[beside]
         tree = plant(boxes)
         order = tree.order[asking[tree.order]]
-        pairs = some[beside[meeting(tree, boxes, order, (of, of), asking)]]
-        pairs = pairs[within(x, beads.segments, pairs, reach)]
-        pairs = pairs[~_beside_a_join(pairs, beads)]
+        parts, count = [], 0
+        for begin in range(0, len(order), AT_ONCE):
+            check()
+            some_of = order[begin : begin + AT_ONCE]
+            part = meeting(tree, boxes, some_of, (of, of), asking, MOST_NEAR - count)
+            part = some[beside[part]]
+            part = part[within(x, beads.segments, part, reach)]
+            parts.append(part[~_beside_a_join(part, beads)])
+            count += len(parts[-1])
+        pairs = np.concatenate(parts)
+        if len(parts) > 1:
+            pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
     rows = np.flatnonzero(asked)
     near, exempt = _near_items(x, around[rows], some[rows], beads, chains, items, clearance)
     apart, distances = _apart(chains, stretch)

@@ -173,6 +173,7 @@ def run(
             size,
             skin,
             None if part is None else part.among,
+            progress,
         )
         begun, step = (
             step,
