@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ from app.hyperedges.elastic.fixed import curves_of
 from app.hyperedges.joining import merge
 from app.hyperedges.previous import Previous, keepable
 from app.hyperedges.routing import Routing
+from app.hyperedges.stopping import Allowance, StoppedError
 from app.placement.placement import Placement
 
 HITS = 3
@@ -29,15 +31,25 @@ ROOM = 12.0
 """How near to a conflict hyperedges leave little room for others, over the largest radius."""
 
 Progress = Callable[[float], None]
-"""Told which share of the work is done at least, from 0 to 1. May raise to end it."""
+"""Told which share of the work is done at least, from 0 to 1.
+
+It may raise to end it; where it raises `StoppedError`, the best so far is what comes of it.
+"""
+
+FOR_FIRST = 0.5
+"""Share of the time after which the first of two routers ends, so that the other has some, too."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Routed:
-    """Curves of some hyperedges, and whether it is proven that nothing is wrong with them."""
+    """Curves of some hyperedges.
+
+    ``is_proven``: that nothing is wrong with them. ``was_stopped``: before anybody had looked.
+    """
 
     routing: Routing
     is_proven: bool = False
+    was_stopped: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +77,9 @@ class Count(NamedTuple):
 
 NONE = Count(0, 0)
 
+UNKNOWN = Count(1 << 60, 0)
+"""Where there was no time to count."""
+
 
 def reroute(
     placement: Placement,
@@ -73,6 +88,7 @@ def reroute(
     routers: Sequence[Router],
     previous: Previous | None = None,
     progress: Progress = lambda _share: None,
+    allowance: Allowance | None = None,
 ) -> Routing:
     """Curves of all hyperedges, by the first of ``routers`` that leaves no faults.
 
@@ -84,20 +100,25 @@ def reroute(
 
     Where conflicts are left at last, all hyperedges are routed anew, if that leaves fewer; by
     another router than that of the previous layout only if it leaves none.
+
+    Of the time that ``allowance`` has, the first of several routers takes half at most. Where
+    ``progress`` raises `StoppedError`, the best so far is what comes of it; no other router begins.
     """
+    allowance = allowance or Allowance()
     kept = np.zeros(len(placement.radii), dtype=np.bool_)
     if previous is not None:
         kept = keepable(placement, clearance, join_heights, previous)
         if kept.all():
             return previous.routing.part(previous.numbers)
     if previous is None or not kept.any():
-        return _Routing(placement, clearance, tuple(routers), None, progress).best(kept).routing
+        work = _Routing(placement, clearance, tuple(routers), None, progress, allowance)
+        return work.best(kept).routing
     is_elastic = previous.routing.is_elastic
     by_kind = tuple(sorted(routers, key=lambda router: router.is_elastic != is_elastic))
-    work = _Routing(placement, clearance, by_kind, previous, progress)
+    work = _Routing(placement, clearance, by_kind, previous, progress, allowance)
     best = latest = work.best(kept)
     for attempt in range(1, HITS + 1):
-        if not latest.freed.any():
+        if not latest.freed.any() or work.is_over(0.0):
             break
         kept = latest.kept & ~latest.freed
         is_last = attempt == HITS or not kept.any()
@@ -128,6 +149,7 @@ class _Made:
 
     ``freed`` (h,): those kept that they come too near to; or, where there are none but other
     conflicts, those that leave little room there. ``others`` are the curves of those kept.
+    ``was_stopped``: there was no time to find good curves.
     """
 
     routing: Routing
@@ -135,6 +157,11 @@ class _Made:
     kept: Flags
     faults: Count
     freed: Flags
+    was_stopped: bool
+
+    def is_worse_than(self, later: _Made) -> bool:
+        """Whether what was made ``later`` is to be taken."""
+        return later.faults < self.faults or (self.was_stopped and later.faults == self.faults)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -146,13 +173,24 @@ class _Routing:
     routers: tuple[Router, ...]
     previous: Previous | None
     progress: Progress
+    allowance: Allowance
+
+    def is_over(self, share: float) -> bool:
+        """Whether there is no time left, with so large a ``share`` of the work done."""
+        try:
+            self.progress(share)
+        except StoppedError:
+            return True
+        return False
 
     def best(self, kept: Flags) -> _Made:
         """The best curves that a router finds beside those ``kept`` (h,)."""
         best: _Made | None = None
         for number in range(len(self.routers)):
+            if best is not None and self.is_over(number / len(self.routers)):
+                break
             made = self._made(number, kept)
-            if best is None or made.faults < best.faults:
+            if best is None or best.is_worse_than(made):
                 best = made
             if best.faults == NONE:
                 break
@@ -167,7 +205,7 @@ class _Routing:
         kept = np.zeros(len(self.placement.radii), dtype=np.bool_)
         best = self._made(0, kept)
         for number in range(1, len(self.routers)):
-            if min(best.faults, least).conflicts == 0:
+            if min(best.faults, least).conflicts == 0 or self.is_over(number / len(self.routers)):
                 break
             made = self._made(number, kept)
             if made.faults.conflicts == 0:
@@ -185,27 +223,38 @@ class _Routing:
 
         def progress(share: float) -> None:
             self.progress((number + share) / len(self.routers))
+            if number == 0 and len(self.routers) > 1:
+                self.allowance.check(FOR_FIRST)
 
         routed = router.route(chosen, others, progress)
         routing = replace(routed.routing, is_elastic=router.is_elastic)
         faults, freed = NONE, np.zeros_like(kept)
         if not routed.is_proven and (self.previous is not None or len(self.routers) > 1):
-            faults, freed = self._faults(kept, routing, others)
-        return _Made(routing, others, kept, faults, freed)
+            check = partial(self.progress, (number + 1) / len(self.routers))
+            try:
+                faults, freed = self._faults(kept, routing, others, check)
+            except StoppedError:
+                faults = UNKNOWN
+        return _Made(routing, others, kept, faults, freed, routed.was_stopped)
 
     def _old(self, hyperedges: Indices) -> Routing:
         if self.previous is None:
             return Routing.nothing()
         return self.previous.routing.part(self.previous.numbers[hyperedges])
 
-    def _faults(self, kept: Flags, routing: Routing, others: Routing) -> tuple[Count, Flags]:
-        """What is wrong with curves beside the ``others``, and which of those ``kept`` to free."""
+    def _faults(
+        self, kept: Flags, routing: Routing, others: Routing, check: Callable[[], None]
+    ) -> tuple[Count, Flags]:
+        """What is wrong with curves beside the ``others``, and which of those ``kept`` to free.
+
+        ``check`` may raise to end it.
+        """
         hyperedges = np.flatnonzero(~kept)
         part = self.placement.of_hyperedges(hyperedges)
         around = ItemsAround.of(part, obstacles_of(self.placement).bodies, self.clearance)
         curves = curves_of(others, len(hyperedges))
         active = np.ones(len(hyperedges), dtype=np.bool_)
-        found = find_faults(routing, curves, around, self.clearance, active)
+        found = find_faults(routing, curves, around, self.clearance, active, check)
         owners = np.repeat(np.arange(len(hyperedges)), np.diff(routing.segment_starts))
         owners = np.concatenate([owners, curves.owners])
         numbers = np.concatenate([hyperedges, np.flatnonzero(kept)])

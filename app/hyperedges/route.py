@@ -15,6 +15,7 @@ from app.hyperedges.join_planes import choose_join_planes
 from app.hyperedges.previous import Previous, known_planes
 from app.hyperedges.rerouting import Progress, reroute
 from app.hyperedges.routing import Routing
+from app.hyperedges.stopping import Allowance
 from app.hyperedges.woven import lay_all, plane_router
 from app.placement.placement import Placement
 
@@ -37,6 +38,7 @@ def route(
     join_heights: Floats | None = None,
     previous: Previous | None = None,
     progress: Progress = lambda _share: None,
+    allowance: Allowance | None = None,
 ) -> Routing:
     """Curves of all hyperedges of a placement.
 
@@ -55,9 +57,12 @@ def route(
     those of a ``previous`` layout keep their planes.
 
     ``join_heights`` (h,) are join planes, NaN where they are to be chosen. ``progress`` is told
-    shares of the work. Raises `ValueError` where a hyperedge has fewer than two attachments.
+    shares of the work; where it raises `app.hyperedges.stopping.StoppedError`, what comes of it are
+    the best short trees so far. Of the time that ``allowance`` has, ``auto`` leaves some for either
+    way. Raises `ValueError` where a hyperedge has fewer than two attachments.
     """
     starts = placement.attachment_starts
+    allowance = allowance or Allowance()
     if join_heights is None:
         join_heights = np.full(len(starts) - 1, np.nan)
     if previous is not None and (curves != "steiner" or clearance is None):
@@ -70,10 +75,14 @@ def route(
             kinds = ROUTERS["planes"]
         routers = [kind(placement, clearance, join_heights) for kind in kinds]
         try:
-            return reroute(placement, clearance, join_heights, routers, previous, progress)
+            return reroute(
+                placement, clearance, join_heights, routers, previous, progress, allowance
+            )
         except TooManyPairs:
             planes = [plane_router(placement, clearance, join_heights)]
-            return reroute(placement, clearance, join_heights, planes, previous, progress)
+            return reroute(
+                placement, clearance, join_heights, planes, previous, progress, allowance
+            )
     join_planes = choose_join_planes(placement, clearance, join_heights)
     laid = lay_out(
         placement.attachment_positions,

@@ -48,7 +48,8 @@ def plane_router(placement: Placement, clearance: float, join_heights: Floats) -
         attached[:, 0] = renumbered[attached[:, 0]]
         attached = attached[np.lexsort((attached[:, 1], attached[:, 0]))]
         woven = weave(threads, still, replace(around, attached=attached), clearance, progress)
-        return Routed(number(woven.plan, woven.fabric, woven.leaving, woven.planes, threads.radii))
+        made = number(woven.plan, woven.fabric, woven.leaving, woven.planes, threads.radii)
+        return Routed(made, was_stopped=not woven.tried)
 
     return Router(False, route)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,9 +11,10 @@ from app.arrays import Flags, Floats, Indices
 from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacles import obstacle_gaps
 from app.hyperedges.clearance.own import own_contacts
-from app.hyperedges.clearance.pairs import boxes, gaps, near_pairs
+from app.hyperedges.clearance.pairs import boxes, close_pairs
 from app.hyperedges.pinches import find_pinches
 from app.hyperedges.routing import Routing
+from app.hyperedges.stopping import unchecked
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,8 +70,12 @@ def find_faults(
     around: ItemsAround,
     clearance: float,
     active: Flags,
+    check: Callable[[], None] = unchecked,
 ) -> Faults:
-    """The faults of the hyperedges ``active`` (h,), and of others with them and with items."""
+    """The faults of the hyperedges ``active`` (h,), and of others with them and with items.
+
+    ``check`` is called now and then, and may raise to end it.
+    """
     count = len(routing.control_points)
     owners = np.repeat(np.arange(len(routing.radii)), np.diff(routing.segment_starts))
     moving = Curves.of(routing.control_points, owners, routing.radii[owners])
@@ -85,18 +91,12 @@ def find_faults(
     )
     asked = np.zeros(len(rows), dtype=np.bool_)
     asked[np.searchsorted(rows, asking)] = True
-    pairs = near_pairs(points, owners, radii, clearance, asked)
-    found = gaps(points, radii, pairs, clearance)
-    close = found.lower < clearance
-    pairs, at, lower, places = (
-        pairs[close],
-        found.at[close],
-        found.lower[close],
-        found.places[close],
-    )
+    pairs, found = close_pairs(points, owners, radii, clearance, asked, check=check)
+    at, lower, places = found.at, found.lower, found.places
     hit = np.unique(owners[pairs[rows[pairs[:, 1]] >= count, 1]])
     ways = _ways(points, pairs, at)
     pairs = rows[pairs]
+    check()
     near = around.near(
         moving.points[asking], moving.owners[asking], moving.radii[asking], clearance
     )

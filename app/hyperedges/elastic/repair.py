@@ -24,6 +24,7 @@ from app.hyperedges.elastic.run import (
     run,
 )
 from app.hyperedges.routing import Routing
+from app.hyperedges.stopping import StoppedError
 
 ROUNDS = 30
 """How often what is wrong is mended, at most."""
@@ -52,12 +53,12 @@ SMOOTHINGS = 6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mended:
-    """Curves, and what is still wrong with them."""
+    """Curves, and what is still wrong with them: ``faults``, or None where nobody has looked."""
 
     routing: Routing
     state: State
     pieces: Pieces
-    faults: Faults
+    faults: Faults | None
 
 
 def mend(
@@ -67,18 +68,45 @@ def mend(
     progress: Progress,
     rounds: int = ROUNDS,
 ) -> Mended:
-    """The best curves of so many rounds of mending."""
+    """The best curves of so many rounds of mending, or of fewer where ``progress`` stops it."""
+    best: list[Mended] = []
+    try:
+        _mend(state, around, sweeps, progress, rounds, best)
+    except StoppedError:
+        if not best:
+            return unmended(state, sweeps)
+    return best[-1]
+
+
+def unmended(state: State, sweeps: Indices) -> Mended:
+    """Curves along the beads as they are."""
+    pieces = fit(state.x, state.beads, state.chains, state.stems, sweeps)
+    return Mended(routing_of(pieces, state.x, state.chains), state, pieces, None)
+
+
+def _mend(
+    state: State,
+    around: Surroundings,
+    sweeps: Indices,
+    progress: Progress,
+    rounds: int,
+    best: list[Mended],
+) -> None:
+    """Add what is better than all before to ``best``, round by round."""
     hyperedges = len(state.chains.radii)
     active = np.ones(hyperedges, dtype=np.bool_)
-    best: Mended | None = None
+    fewest = np.inf
     pieces: Pieces | None = None
     for number in range(rounds + 1):
         progress()
         pieces = fit(state.x, state.beads, state.chains, state.stems, sweeps, pieces, active)
         routing = routing_of(pieces, state.x, state.chains)
-        faults = find_faults(routing, around.kept, around.proven, around.clearance, active)
-        if best is None or faults.count < best.faults.count:
-            best = Mended(routing, replace(state, x=state.x.copy()), pieces, faults)
+        faults = find_faults(
+            routing, around.kept, around.proven, around.clearance, active, progress
+        )
+        if faults.count < fewest:
+            fewest = faults.count
+            best.append(Mended(routing, replace(state, x=state.x.copy()), pieces, faults))
         if faults.count == 0 or number == rounds:
             break
         before = state.x.copy()
@@ -96,8 +124,6 @@ def mend(
             run(state, around, STILL, 10, 1.2, progress, near)
             _push(state, pieces, faults, around.clearance)
         active = wrong | _moved(state, before)
-    assert best is not None, "there is one round at least"  # noqa: S101
-    return best
 
 
 def troubled(faults: Faults, routing: Routing, hyperedges: int) -> Flags:

@@ -43,7 +43,8 @@ def elastic_router(placement: Placement, clearance: float, join_heights: Floats)
         chains, joins = chains_of(placement, chosen, join_heights[chosen], _on_ground(obstacles))
         made = relaxed(chains, joins, around, progress)
         # Sweeps that are made after mending add no faults.
-        return Routed(made.routing, is_proven=made.faults.count == 0)
+        is_proven = made.faults is not None and made.faults.count == 0
+        return Routed(made.routing, is_proven, was_stopped=made.faults is None)
 
     return Router(True, route)
 

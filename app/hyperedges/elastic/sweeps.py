@@ -12,6 +12,7 @@ from app.hyperedges.elastic.fitting import fit
 from app.hyperedges.elastic.repair import Mended, troubled
 from app.hyperedges.elastic.run import Progress, State, Surroundings
 from app.hyperedges.routing import Routing
+from app.hyperedges.stopping import StoppedError
 
 LENGTHS = (36.0, 24.0, 14.0, 8.0, 0.0)
 """Of the cubics at joins, over the tube's radius: the first are tried first."""
@@ -24,7 +25,15 @@ def lengthen(mended: Mended, around: Surroundings, progress: Progress) -> Routin
     """Curves with sweeps at their joins as long as can be.
 
     A hyperedge whose sweeps make a fault gets shorter ones, and with it what it comes too near to.
+    Where ``progress`` stops it, curves are left as they are.
     """
+    try:
+        return _lengthened(mended, around, progress)
+    except StoppedError:
+        return mended.routing
+
+
+def _lengthened(mended: Mended, around: Surroundings, progress: Progress) -> Routing:
     state = mended.state
     hyperedges = len(state.chains.radii)
     levels = np.zeros(hyperedges, dtype=np.int64)
@@ -35,7 +44,9 @@ def lengthen(mended: Mended, around: Surroundings, progress: Progress) -> Routin
         sweeps = _sweeps(state, levels)
         pieces = fit(state.x, state.beads, state.chains, state.stems, sweeps, pieces, active)
         routing = routing_of(pieces, state.x, state.chains)
-        faults = find_faults(routing, around.kept, around.proven, around.clearance, active)
+        faults = find_faults(
+            routing, around.kept, around.proven, around.clearance, active, progress
+        )
         active = troubled(faults, routing, hyperedges) & (levels < len(LENGTHS) - 1)
         if not active.any():
             return routing
