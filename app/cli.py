@@ -198,7 +198,8 @@ def _answer(document: BinaryIO, options: Options) -> Answer:
     try:
         with _progress_bar() as progress:
             # Who sits before it is the deadline.
-            settings = Settings().model_copy(update={"deadline_seconds": math.inf})
+            patient = {"deadline_seconds": math.inf, "layout_share": 1.0, "certificate_share": 1.0}
+            settings = Settings().model_copy(update=patient)
             answer = pipeline.answer(document.read(), options, settings, progress=progress)
     except DocumentError as error:
         for fault in error.faults:

@@ -85,7 +85,7 @@ def variations(program: Program, artist: Artist, settings: Settings) -> Image:
     pictures = []
     for cell in (cell for row in rows for cell in row):
         width, height = size_of_one_eye(cell.view, *page.cell)
-        scene = make_scene(cell, width / height, height=height)
+        scene = make_scene(cell, width / height, height=height, layout=artist.laid(cell))
         pictures.append(artist.picture(scene, cell.view, *page.cell))
     captions = axes[0].captions * len(rows)
     return page.of(pictures, captions, axes[1].captions if len(axes) > 1 else ())

@@ -15,6 +15,7 @@ from app.hyperedges.pinches import find_pinches
 from app.hyperedges.previous import Previous
 from app.hyperedges.route import route
 from app.hyperedges.routing import Routing
+from app.hyperedges.stopping import Allowance, Spent, nothing_spent
 from app.notations.loader import load_notation
 from app.output.clearance_numbers import Verdict
 from app.placement.flat import flattened
@@ -43,13 +44,15 @@ def silent(_stage: str, _share: float) -> None:
 class Layout:
     """A program with its placement and its routing.
 
-    ``hues`` (h,) say which colour of the palette each hyperedge has.
+    ``hues`` (h,) say which colour of the palette each hyperedge has. Where the time for it ran out,
+    the layout is not ``complete``: its curves are the best so far.
     """
 
     program: Program
     placement: Placement
     routing: Routing
     hues: Indices
+    complete: bool = True
 
     @property
     def standing(self) -> Standing:
@@ -58,7 +61,12 @@ class Layout:
 
 
 def lay_out(
-    program: Program, previous: Layout | None = None, progress: Progress = silent
+    program: Program,
+    previous: Layout | None = None,
+    progress: Progress = silent,
+    spent: Spent = nothing_spent,
+    *,
+    curves_anew: bool = False,
 ) -> Layout:
     """The layout that the document's ``layout`` wishes for.
 
@@ -66,6 +74,10 @@ def lay_out(
     they are, and hyperedges of the same id keep their colours, and their curves to the last bit,
     unless their attachments moved or something new is in their way. In a flat drawing they go where
     they would without any others.
+
+    When all of the time for it is ``spent``, the layout is the best so far, whose curves may
+    come too near to each other. One that keeps curves of such a layout is not complete either;
+    with ``curves_anew`` none is kept.
     """
     progress("placing items", 0.1)
     find_palette(program.style.palette)  # now, and not when all has been laid out
@@ -79,6 +91,13 @@ def lay_out(
         curves = wishes.curves or _usual_curves(program)
         routing = route_flat(flat, curves=curves, fidelity=wishes.fidelity)
         return Layout(program, flat, routing, hues)
+    allowance = Allowance(spent)
+
+    def report(share: float) -> None:
+        progress("laying out hyperedges", 0.2 + 0.2 * share)
+        allowance.check()
+
+    kept = None if previous is None or curves_anew else _previous(program, previous)
     routing = route(
         placement,
         curves=wishes.curves or _usual_curves(program),
@@ -87,10 +106,12 @@ def lay_out(
         clearance=wishes.clearance,
         routing=wishes.routing,
         join_heights=_join_heights(program),
-        previous=None if previous is None else _previous(program, previous),
-        progress=lambda share: progress("laying out hyperedges", 0.2 + 0.2 * share),
+        previous=kept,
+        progress=report,
+        allowance=allowance,
     )
-    return Layout(program, placement, routing, hues)
+    was_complete = kept is None or previous is None or previous.complete
+    return Layout(program, placement, routing, hues, was_complete and not allowance.ran_out)
 
 
 def shown(program: Program, placement: Placement) -> Placement:
@@ -98,12 +119,16 @@ def shown(program: Program, placement: Placement) -> Placement:
     return flattened(placement, program) if program.layout.dimensions == 2 else placement
 
 
-def judge(layout: Layout) -> Verdict | None:
-    """What is proven about distances; None where the document wants no clearance."""
+def judge(layout: Layout, spent: Spent = nothing_spent) -> Verdict | None:
+    """What is proven about distances; None where the document wants no clearance.
+
+    When all of the time for it is ``spent``, it is what is known so far.
+    """
     clearance = layout.program.layout.clearance
     if clearance is None:
         return None
-    certificate = certify(layout.routing, layout.placement, clearance)
+    check = Allowance(spent).check
+    certificate = certify(layout.routing, layout.placement, clearance, check)
     return Verdict(certificate, find_pinches(layout.routing))
 
 

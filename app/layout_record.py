@@ -43,6 +43,8 @@ def write_layout(layout: Layout) -> bytes:
     arrays = {name: getattr(layout.placement, name) for name in PLACES + ENDS}
     arrays |= {f"routing_{name}": getattr(layout.routing, name) for name in CURVES}
     arrays["is_elastic"] = np.array(layout.routing.is_elastic)
+    if not layout.complete:
+        arrays["stopped"] = np.array(True)
     np.savez(file, form=FORM, hues=layout.hues, **arrays)
     return file.getvalue()
 
@@ -70,7 +72,7 @@ def read_layout(program: Program, data: bytes) -> Layout | None:
         attachment_positions=positions,
         attachment_directions=directions,
     )
-    return Layout(program, placed, routing, hues)
+    return Layout(program, placed, routing, hues, complete="stopped" not in arrays)
 
 
 def _arrays(data: bytes) -> dict[str, np.ndarray[Any, Any]]:

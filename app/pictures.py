@@ -9,11 +9,12 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from app.answers import RenderOptions
-from app.layout import Layout, Preview, Progress
+from app.hyperedges.stopping import Spent, nothing_spent
+from app.layout import Layout, Preview, Progress, lay_out
 from app.output.draft import draw_views
 from app.output.png import encode_png
 from app.output.stereo import anaglyph, side_by_side
-from app.program.model import View
+from app.program.model import Program, View
 from app.scene.eyes import eyes
 from app.scene.scene import Camera, Scene
 
@@ -42,6 +43,7 @@ class Artist:
     ``layout`` is the program's, where it is known. ``count`` is how many pictures there will be,
     each eye's counted; when the clock (`time.monotonic`) shows ``deadline`` all final ones should
     be there, in as good a quality as there was time for.
+    Layouts that are made for pictures end when the time for them is ``spent``.
     """
 
     options: RenderOptions
@@ -49,9 +51,22 @@ class Artist:
     progress: Progress
     preview: Preview | None = None
     layout: Layout | None = None
+    spent: Spent = nothing_spent
     count: int = 1
     _finals: list[Final] = field(default_factory=list)
     _drawn: int = 0
+    complete: bool = True
+    """Whether there was time enough for all layouts."""
+
+    def __post_init__(self) -> None:
+        if self.layout is not None:
+            self.complete = self.layout.complete
+
+    def laid(self, program: Program) -> Layout:
+        """The layout of a variation of the program."""
+        found = lay_out(program, spent=self.spent)
+        self.complete &= found.complete
+        return found
 
     def picture(self, scene: Scene, view: View, width: int, height: int) -> Image:
         """The scene from its own camera, for both eyes where the view wishes for that."""

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import time
 from dataclasses import replace
+from functools import partial
 
 from app import __version__
 from app.answers import (
@@ -22,6 +24,7 @@ from app.answers import (
 from app.compositions import contact_sheet, film, joined, variations
 from app.formats import registry
 from app.hyperedges.clearance.overlaps import find_overlaps
+from app.hyperedges.stopping import Spent, nothing_spent
 from app.layout import Preview, Progress, judge, lay_out, silent
 from app.layout_record import read_layout
 from app.output.draft import draw_draft
@@ -60,6 +63,14 @@ from app.tubes.patches import patch_pairs
 TIME_FOR_PICTURES = 0.75
 """Share of the deadline after which final pictures are as good as they can be."""
 
+STOPPED = {"Stopped-By": "deadline"}
+"""Note of an answer whose layout, or what is proven of it, there was not time enough for."""
+
+
+def share_spent(spent: Spent, share: float) -> float:
+    """How much of a ``share`` of the time is over, where so much of the whole is ``spent``."""
+    return spent() / share if share > 0.0 else math.inf
+
 
 def answer(
     data: bytes,
@@ -70,18 +81,20 @@ def answer(
     preview: Preview | None = None,
     layout: bytes | None = None,
     shared: SharedLayout | None = None,
+    spent: Spent = nothing_spent,
 ) -> Answer | Unchanged | Revised:
     """Whatever ``options`` ask of the document ``data``.
 
     ``known`` are validators of answers that the asker has. The ``layout`` of a stored program is
     what `app.layout_record` wrote; it is shown, rather than a new one. A posted document's layout
-    may be ``shared`` with other answers. Raises what `app.errors` lists.
+    may be ``shared`` with other answers. By the share of the time for the work that is ``spent`` a
+    layout ends with the best so far. Raises what `app.errors` lists.
     """
     match options:
         case RenderOptions():
-            return render(data, options, settings, known, progress, preview, layout, shared)
+            return render(data, options, settings, known, progress, preview, layout, shared, spent)
         case LayoutOptions():
-            return layout_of(data, options, settings, known, progress, layout, shared)
+            return layout_of(data, options, settings, known, progress, layout, shared, spent)
         case ConvertOptions():
             return convert(data, options, settings, known, progress)
         case JoinOptions(film=wanted):
@@ -89,7 +102,8 @@ def answer(
             return Answer(body, wanted.format.media_type, None)
         case ReviseOptions():
             with collection_paused():
-                return revise(data, layout, options.change, settings, progress)
+                until = partial(share_spent, spent, settings.layout_share)
+                return revise(data, layout, options.change, settings, progress, until)
 
 
 def render(
@@ -101,6 +115,7 @@ def render(
     preview: Preview | None = None,
     layout: bytes | None = None,
     shared: SharedLayout | None = None,
+    spent: Spent = nothing_spent,
 ) -> Answer | Unchanged:
     """The scene of the document, in ``options.format``.
 
@@ -120,21 +135,26 @@ def render(
         if is_known(etag, known):
             return Unchanged(etag)
         laid = recent or (None if layout is None else read_layout(program, layout))
-        if laid is None and shared is not None and not options.sweep:
-            laid = shared.of(program, progress)
+        laying: Spent = partial(share_spent, spent, settings.layout_share)
+        if options.stretch is not None:  # others draw theirs of the same layout, which is whole
+            laying = nothing_spent
+        if laid is None and not options.sweep:
+            laid = (shared or SharedLayout()).of(program, progress, laying)
         seconds = TIME_FOR_PICTURES * settings.deadline_seconds
         seconds = min(options.effort.time_limit or seconds, seconds)
         share = 1.0 if options.stretch is None else options.stretch.share
         deadline = began + share * seconds
-        artist = Artist(options, deadline, progress, preview, laid)
+        artist = Artist(options, deadline, progress, preview, laid, laying)
         body = _body(program, options, settings, artist, progress)
         progress("done", 1.0)
+        # What is stored stays as it is, be it the best that there was time for.
+        stopped = not artist.complete
         return Answer(
             body,
             options.format.media_type,
-            None if artist.ran_out_of_time else etag,
+            None if artist.ran_out_of_time or (stopped and layout is None) else etag,
             program.name,
-            artist.notes,
+            artist.notes | (STOPPED if stopped else {}),
         )
 
 
@@ -154,8 +174,8 @@ def _body(
     if options.format is SceneFormat.PNG:
         return _picture(program, artist)
     if options.delta is not None:
-        laid = artist.layout or lay_out(program, progress=progress)
         aspect = options.width / options.height
+        laid = artist.layout or lay_out(program, progress=progress)
         return _write_scene(stage_changes(laid, options.delta, aspect, options.height), options)
     sweeping = _sweeping(program, options, settings, progress)
     height = None if options.format.is_printed else options.height
@@ -223,6 +243,7 @@ def layout_of(
     progress: Progress = silent,
     layout: bytes | None = None,
     shared: SharedLayout | None = None,
+    spent: Spent = nothing_spent,
 ) -> Answer | Unchanged:
     """The numbers of the document's layout, as JSON."""
     progress("reading", 0.0)
@@ -231,17 +252,25 @@ def layout_of(
     if is_known(etag, known):
         return Unchanged(etag)
     laid = None if layout is None else read_layout(program, layout)
-    laid = laid or (shared or SharedLayout()).of(program, progress)
+    laying = partial(share_spent, spent, settings.layout_share)
+    laid = laid or (shared or SharedLayout()).of(program, progress, laying)
     progress("proving clearance", 0.5)
-    verdict = judge(laid)
+    verdict = judge(laid, partial(share_spent, spent, settings.certificate_share))
     progress("writing", 0.6)
     patches = patch_pairs(laid.routing, program.layout.patch_rule) if options.patches else None
     overlaps = find_overlaps(laid.placement)
     body = layout_numbers(
-        program, laid.placement, laid.routing, patches, verdict, overlaps, laid.hues
+        program, laid.placement, laid.routing, patches, verdict, overlaps, laid.hues, laid.complete
     )
     progress("done", 1.0)
-    return Answer(body, "application/json", etag, program.name)
+    is_proven = verdict is None or verdict.certificate.complete
+    return Answer(
+        body,
+        "application/json",
+        etag if is_proven and (laid.complete or layout is not None) else None,
+        program.name,
+        {} if is_proven and laid.complete else STOPPED,
+    )
 
 
 def convert(

@@ -15,6 +15,7 @@ from app.answers import (
     Revised,
 )
 from app.formats import registry
+from app.hyperedges.stopping import Spent, nothing_spent
 from app.layout import Layout, Progress, lay_out, silent
 from app.layout_changes import changes_between
 from app.layout_record import read_layout, write_layout
@@ -37,12 +38,13 @@ def revise(
     change: Change,
     settings: Settings,
     progress: Progress = silent,
+    spent: Spent = nothing_spent,
 ) -> Revised:
     """What ``change`` makes of ``document`` (canonical, or empty if there is none) and its layout.
 
     Whatever the change does not concern keeps its place, its colour and its curves to the last bit.
     Raises what reading a document raises, and what `app.program.patching` and `app.program.edits`
-    do; then nothing has happened.
+    do; then nothing has happened. When the time for the layout is ``spent``, it is the best so far.
     """
     progress("reading", 0.0)
     previous = _previous(document, layout, settings)
@@ -54,7 +56,9 @@ def revise(
         known = None
         if before is not None and previous is not None:
             known = replace(previous, program=renamed(before, edited))
-        laid = lay_out(edited.program, known, progress)
+        # Who puts a program again whose layout was stopped wants another attempt.
+        anew = isinstance(change, Replacement) and known is not None and not known.complete
+        laid = lay_out(edited.program, known, progress, spent, curves_anew=anew)
         progress("writing", 0.6)
         written = _writer.write(edited.program)
         revised = _revised(previous, laid, written, write_layout(laid))

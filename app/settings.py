@@ -147,6 +147,18 @@ class Settings(BaseSettings):
     )
     max_waiting: int = Field(64, ge=0, description="Requests that may wait for a worker.")
     deadline_seconds: float = Field(60.0, gt=0, description="Longest work on one request.")
+    layout_share: float = Field(
+        0.5,
+        ge=0,
+        le=1,
+        description="Of the longest work, after which a layout is answered as it is.",
+    )
+    certificate_share: float = Field(
+        0.75,
+        ge=0,
+        le=1,
+        description="Of the longest work, after which no more conflicts are looked for.",
+    )
     examine_seconds: float = Field(
         5.0,
         gt=0,

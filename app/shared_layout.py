@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from app.hyperedges.stopping import Spent, nothing_spent
 from app.layout import Layout, Progress, lay_out
 from app.layout_record import read_layout, write_layout
 from app.program.model import Program
@@ -19,11 +20,14 @@ class SharedLayout:
     known: bytes | None = None
     made: bytes | None = None
 
-    def of(self, program: Program, progress: Progress) -> Layout:
-        """The layout of a program, which is the same to the bit wherever it comes from."""
+    def of(self, program: Program, progress: Progress, spent: Spent = nothing_spent) -> Layout:
+        """The layout of a program, which is the same to the bit wherever it comes from.
+
+        One that is not complete is not shared: with more time it would be another one.
+        """
         if self.known is not None and (laid := read_layout(program, self.known)) is not None:
             return laid
-        laid = lay_out(program, progress=progress)
-        if len(program.hyperedges) >= FEWEST_HYPEREDGES:
+        laid = lay_out(program, progress=progress, spent=spent)
+        if laid.complete and len(program.hyperedges) >= FEWEST_HYPEREDGES:
             self.made = write_layout(laid)
         return laid

@@ -116,7 +116,7 @@ def describe_result() -> dict[str, Any]:
     """Of the call that fetches what a job has made."""
     done = {
         "description": "What the job has made.",
-        "headers": headers("ETag", "Vary", "Content-Disposition"),
+        "headers": headers("ETag", "Vary", "Content-Disposition", "Tubeloom-Stopped-By"),
         "content": contents("render"),
     }
     unchanged = {

@@ -5,7 +5,7 @@ Positions are world positions, z up, in document units; quaternions are x, y, z,
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -125,6 +125,11 @@ class Clearance(BaseModel):
     conflicts: list[Conflict]
     own_contacts: list[OwnContact]
     pinches: list[Pinch]
+    complete: Literal[False] | None = Field(
+        None,
+        description="False where there are more conflicts than are listed, or there was not time "
+        "enough to look for them all; left out elsewhere.",
+    )
 
 
 class LayoutNumbers(BaseModel):
@@ -136,3 +141,8 @@ class LayoutNumbers(BaseModel):
     hyperedges: list[RoutedHyperedge]
     overlaps: list[Overlap] = Field(description="At most 1,000, sorted as the items are.")
     clearance: Clearance | None = Field(description="Null where layout.clearance is null.")
+    stopped_by: Literal["deadline"] | None = Field(
+        None,
+        description="`deadline` where there was not time enough for the layout, which is the best "
+        "so far; left out elsewhere.",
+    )

@@ -127,7 +127,12 @@ def describe(call: str) -> dict[str, Any]:
             200: {
                 "description": "The answer.",
                 "headers": headers(
-                    "ETag", "Vary", "Content-Disposition", "Server-Timing", "Tubeloom-Cache"
+                    "ETag",
+                    "Vary",
+                    "Content-Disposition",
+                    "Server-Timing",
+                    "Tubeloom-Cache",
+                    "Tubeloom-Stopped-By",
                 ),
                 "content": contents(call),
             },

@@ -74,6 +74,7 @@ def describe_view(call: str) -> dict[str, Any]:
         "Content-Disposition",
         "Server-Timing",
         "Tubeloom-Cache",
+        "Tubeloom-Stopped-By",
         "Tubeloom-Revision",
     ]
     if call == "render":

@@ -21,7 +21,7 @@ from app.jobs import errand
 from app.jobs.crew import LocalCrew, settings_for_jobs
 from app.jobs.executor import Finished, Witness, lost_after, outcome_of
 from app.jobs.process import Listener
-from app.jobs.work import Reply, Report, Work
+from app.jobs.work import SOON_OVER, Reply, Report, Work
 from app.settings import Settings
 
 log = structlog.get_logger("tubeloom.jobs")
@@ -69,14 +69,24 @@ class ClusterCrew:
         await self._local.__aexit__()
 
     async def answer(
-        self, document: bytes, options: Options, listener: Listener, layout: bytes | None
+        self,
+        document: bytes,
+        options: Options,
+        listener: Listener,
+        layout: bytes | None,
+        until: float,
     ) -> Finished:
-        """One attempt. Raises what the pipeline raises, and `WorkerLost`."""
+        """One attempt. Raises what the pipeline raises, and `WorkerLost`.
+
+        The time that the work waits for a Dask worker is not known there.
+        """
         if isinstance(options, JoinOptions):
-            return await self._local.answer(document, options, listener, layout)
-        work = Work(options, reports=True, layout=layout)
+            return await self._local.answer(document, options, listener, layout, until)
+        clock = asyncio.get_running_loop().time
         while True:
             client = await self._connected(listener)
+            seconds = max(until - clock(), SOON_OVER)
+            work = Work(options, reports=True, layout=layout, seconds=seconds)
             try:
                 reply, body = await self._once(client, work, document, listener)
             except KilledWorker:

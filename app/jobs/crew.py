@@ -24,9 +24,17 @@ class Crew(Protocol):
         """How many works are done at a time."""
 
     async def answer(
-        self, document: bytes, options: Options, listener: Listener, layout: bytes | None
+        self,
+        document: bytes,
+        options: Options,
+        listener: Listener,
+        layout: bytes | None,
+        until: float,
     ) -> Finished:
-        """One attempt. Raises what the pipeline raises, and `WorkerLost`."""
+        """One attempt, that is over when the clock of the event loop shows ``until``.
+
+        Raises what the pipeline raises, and `WorkerLost`.
+        """
 
 
 def settings_for_jobs(settings: Settings) -> Settings:
@@ -76,11 +84,16 @@ class LocalCrew:
         return self._settings.workers
 
     async def answer(
-        self, document: bytes, options: Options, listener: Listener, layout: bytes | None
+        self,
+        document: bytes,
+        options: Options,
+        listener: Listener,
+        layout: bytes | None,
+        until: float,
     ) -> Finished:
         """One attempt. Raises what the pipeline raises, and `WorkerLost`."""
         pool = await self._started()
-        return await pool.answer(document, options, listener=listener, layout=layout)
+        return await pool.answer(document, options, listener=listener, layout=layout, until=until)
 
     async def _started(self) -> WorkerPool:
         async with self._starting:

@@ -11,13 +11,13 @@ import select
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from app.errors import DeadlineExceeded
 from app.jobs import channel
 from app.jobs.launch import launch
-from app.jobs.work import Crash, Ready, Reply, Report, Work
+from app.jobs.work import SOON_OVER, Crash, Ready, Reply, Report, Work
 from app.settings import Settings
 
 POLL_SECONDS = 0.1
@@ -112,7 +112,7 @@ def _do(
     check: Callable[[], None],
     tell: Callable[[Report], None],
 ) -> tuple[Reply | ChildLost, bytes]:
-    settings = child.settings
+    settings, came = child.settings, time.monotonic()
     try:
         if not child.is_warm:
             child.send(settings)
@@ -121,6 +121,9 @@ def _do(
                 return _failed(child, ready)
             child.is_warm = True
         child.works += 1
+        if work.seconds is not None:  # less what the child took to start
+            left = work.seconds - (time.monotonic() - came)
+            work = replace(work, seconds=max(left, SOON_OVER))
         child.send(work, document)
         reply, body = _next(child, check, tell, settings.deadline_seconds)
     except (OSError, EOFError):

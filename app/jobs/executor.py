@@ -9,9 +9,10 @@ fits never depends on what a worker did.
 from __future__ import annotations
 
 import asyncio
+import math
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, Self
 
 import structlog
@@ -29,7 +30,7 @@ from app.answers import (
 from app.errors import DeadlineExceeded, Overloaded, RendererUnavailable, WorkerLost
 from app.jobs.launch import Launched
 from app.jobs.process import Listener, WorkerDiedError, WorkerProcess
-from app.jobs.work import Crash, Outcome, Reply, Stage, Work
+from app.jobs.work import SOON_OVER, Crash, Outcome, Reply, Stage, Work
 from app.output.media import SceneFormat
 from app.settings import Settings
 
@@ -144,16 +145,18 @@ class WorkerPool:
         listener: Listener | None = None,
         layout: bytes | None = None,
         shared: bytes | None = None,
+        until: float = math.inf,
     ) -> Finished:
         """Answer in a worker process. The ``listener`` hears how the work goes on.
 
         A stored program's ``layout`` is shown as it is; a posted document's may be ``shared``, if
-        an earlier answer has left it. Raises what the pipeline raises, and
+        an earlier answer has left it. Where the clock of the event loop shows ``until`` before the
+        deadline, the work goes by that. Raises what the pipeline raises, and
         `Overloaded`, `DeadlineExceeded`, `WorkerLost`. When the caller is cancelled, work that
         goes on for long is stopped.
         """
         work = Work(options, known, listener is not None, layout, shared)
-        reply, pieces, waited = await self._ask(work, document, listener)
+        reply, pieces, waited = await self._ask(work, document, listener, until)
         return Finished(outcome_of(reply), pieces, waited, reply.stages, shared=reply.shared)
 
     async def revise(self, document: bytes, layout: bytes | None, change: Change) -> Revised:
@@ -165,7 +168,11 @@ class WorkerPool:
         return outcome
 
     async def _ask(
-        self, work: Work, document: bytes, listener: Listener | None
+        self,
+        work: Work,
+        document: bytes,
+        listener: Listener | None,
+        until: float = math.inf,
     ) -> tuple[Reply, tuple[bytes, ...], float]:
         """A reply, its payload, and the seconds that the work waited for a worker."""
         clock = asyncio.get_running_loop().time
@@ -176,8 +183,10 @@ class WorkerPool:
             began, is_new = clock(), worker.works == 0
             waited += began - came
             stages: tuple[Stage, ...] = ()
+            seconds = min(self._settings.deadline_seconds, max(until - began, SOON_OVER))
             try:
-                reply, pieces = await self._do(worker, work, document, listener)
+                timed = replace(work, seconds=seconds)
+                reply, pieces = await self._do(worker, timed, document, listener)
                 stages = reply.stages
                 self._learn(work.options, reply.outcome)
             except WorkerDiedError:

@@ -7,6 +7,7 @@ encoded by one work at the end, so that the film is the same to the byte as one 
 from __future__ import annotations
 
 import asyncio
+import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -34,11 +35,15 @@ DRAWN = 0.95
 
 @dataclass(frozen=True, slots=True)
 class Works:
-    """Does the works of a ``running`` task with a ``crew``; each is tried ``most`` times."""
+    """Does the works of a ``running`` task with a ``crew``; each is tried ``most`` times.
+
+    All are over when the clock of the event loop shows ``until``.
+    """
 
     crew: Crew
     running: Running
     most: int
+    until: float = math.inf
 
     async def all(self, listener: Listener) -> Finished:
         """What the task asks for. Raises what the pipeline raises, and `WorkerLost`."""
@@ -89,7 +94,7 @@ class Works:
         for attempt in count(self.running.task.attempts):
             self.running.attempts = max(self.running.attempts, attempt)
             try:
-                return await self.crew.answer(document, options, listener, layout)
+                return await self.crew.answer(document, options, listener, layout, self.until)
             except WorkerLost:
                 if attempt >= self.most:
                     raise WorkerLost(lost_after(self.most)) from None

@@ -7,6 +7,7 @@ out, and whoever looks next takes the job up.
 from __future__ import annotations
 
 import asyncio
+import math
 import secrets
 import time
 from collections.abc import Awaitable, Callable
@@ -185,7 +186,8 @@ class Keeper:
         most = self._settings.job_attempts
         try:
             async with asyncio.timeout(task.deadline_seconds) as limit:
-                return await Works(self._crew, running, most).all(listen)
+                until = limit.when() or math.inf
+                return await Works(self._crew, running, most, until).all(listen)
         except TimeoutError:
             if not limit.expired():
                 raise

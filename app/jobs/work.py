@@ -8,13 +8,17 @@ from typing import TypeAlias
 from app.answers import Answer, Options, Revised, Unchanged
 from app.errors import OutOfMemory, TubeloomError
 
+SOON_OVER = 0.001
+"""Seconds that a work has whose time is over already."""
+
 
 @dataclass(frozen=True, slots=True)
 class Work:
     """One call of the pipeline; the document follows as raw bytes.
 
     ``reports`` asks for a `Report` now and then before the reply. ``layout`` is a stored program's;
-    ``shared`` is that of a posted document, which an earlier answer has left.
+    ``shared`` is that of a posted document, which an earlier answer has left. It may take so many
+    ``seconds`` from when it comes; None where nobody counts them.
     """
 
     options: Options
@@ -22,6 +26,7 @@ class Work:
     reports: bool = False
     layout: bytes | None = None
     shared: bytes | None = None
+    seconds: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -104,6 +104,11 @@ def do(
     def show(picture: bytes) -> None:
         send(Report(stages[-1][0], share_done), picture)
 
+    began = time.monotonic()
+
+    def spent() -> float:
+        return (time.monotonic() - began) / work.seconds if work.seconds else 0.0
+
     shared = SharedLayout(work.shared)
     try:
         outcome = pipeline.answer(
@@ -115,6 +120,7 @@ def do(
             show if work.reports else None,
             work.layout,
             shared,
+            spent,
         )
     except Exception as error:
         if (found := shortage(error, work.options, settings)) is not None:

@@ -32,7 +32,7 @@ def clearance_numbers(
     nearest = certificate.nearest
     own = certificate.own
     ids = [hyperedge.id for hyperedge in program.hyperedges]
-    return {
+    numbers = {
         "required": certificate.required,
         "certified": certificate.certified,
         "minimum": certificate.minimum,
@@ -51,6 +51,7 @@ def clearance_numbers(
         ],
         "pinches": list(_pinches(ids, routing, verdict.pinches)),
     }
+    return numbers if certificate.complete else {**numbers, "complete": False}
 
 
 def _names(program: Program, with_item: bool, first: int, second: int) -> dict[str, Any]:

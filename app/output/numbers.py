@@ -26,6 +26,7 @@ def layout_numbers(
     verdict: Verdict | None,
     overlaps: Overlaps,
     hues: Indices | None = None,
+    complete: bool = True,
 ) -> bytes:
     """JSON with world positions (z up, document units) and quaternions x, y, z, w.
 
@@ -33,18 +34,20 @@ def layout_numbers(
     (s, 2, 4, 4, 3), top and bottom of each segment, are written where they are given; without a
     ``verdict`` the clearance is null. ``overlaps`` are items that stand in each other. ``hues``
     (h,) say which colour of the palette each hyperedge takes; left out, they take one after
-    another.
+    another. A layout for which there was not time enough, one that is not ``complete``, says so.
     """
     # Entry by entry: all as dictionaries at once would take many times the memory of the text.
     items = b",".join(map(_json, _items(program, placement)))
     colors = _colors(program, hues)
     hyperedges = b",".join(map(_json, _hyperedges(program, placement, routing, patches, colors)))
     clearance = None if verdict is None else clearance_numbers(program, placement, routing, verdict)
-    return b'{"items":[%b],"hyperedges":[%b],"overlaps":[%b],"clearance":%b}' % (
+    stopped = b"" if complete else b',"stopped_by":"deadline"'
+    return b'{"items":[%b],"hyperedges":[%b],"overlaps":[%b],"clearance":%b%b}' % (
         items,
         hyperedges,
         b",".join(map(_json, _overlaps(program, overlaps))),
         _json(clearance),
+        stopped,
     )
 
 

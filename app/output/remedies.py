@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from app.arrays import Indices
-from app.hyperedges.clearance.certificate import Conflicts
+from app.hyperedges.clearance.conflicts import Conflicts
 from app.hyperedges.clearance.nearest_ends import nearest_ends
 from app.placement.placement import Placement
 from app.program.model import Program

@@ -16,6 +16,9 @@ LARGE = large_program(600)
 VERY_LARGE = large_program(6000)
 """Of which no machine makes a scene in a second."""
 
+FILM = "format=webp&width=640&height=480&frames=1000"
+"""A render that takes minutes, none of them for the layout."""
+
 
 def another(document: bytes, number: int = 1) -> bytes:
     """The same document, but other bytes: what was answered of it before is of no use."""
@@ -79,7 +82,7 @@ def hurried(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
 
 def test_work_that_takes_too_long_is_stopped(hurried: Service) -> None:
     with hurried.client() as client:
-        response = client.post("/v1/render", content=VERY_LARGE)
+        response = client.post(f"/v1/render?{FILM}", json=SMALL)
         assert response.status_code == 504
         assert response.json()["type"] == "urn:tubeloom:problem:deadline-exceeded"
         until(lambda: client.post("/v1/render", json=SMALL).status_code == 200)

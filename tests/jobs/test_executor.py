@@ -15,14 +15,15 @@ import pytest
 from app.answers import Answer, LayoutOptions, RenderOptions, Unchanged
 from app.errors import DeadlineExceeded, InvalidDocument, OutOfMemory, Overloaded
 from app.jobs.executor import SHORT_LINE, WorkerPool
+from app.output.media import SceneFormat
 from app.settings import Settings
 from tests.service import PATIENCE_SECONDS, SMALL, is_worker, large_program, wide_program
 
 DOCUMENT = json.dumps(SMALL).encode()
 LARGE = large_program(300)
 
-VERY_LARGE = large_program(6000)
-"""Of which no machine makes a scene in a second."""
+FILM = RenderOptions(SceneFormat.WEBP, 640, 480, frames=1000)
+"""Which no machine draws in a second."""
 
 
 Test = Callable[[WorkerPool], Coroutine[Any, Any, None]]
@@ -111,7 +112,7 @@ def test_work_beyond_the_deadline_is_stopped_and_its_worker_replaced() -> None:
         await warm(pool)
         before = worker_pids()
         with pytest.raises(DeadlineExceeded):
-            await pool.answer(VERY_LARGE, RenderOptions())
+            await pool.answer(DOCUMENT, FILM)
         await warm(pool)
         assert len(before - worker_pids()) == 1
 

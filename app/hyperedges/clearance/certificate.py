@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
+from app.hyperedges.clearance.conflicts import Conflicts, Contact, kept, nearest_of, once
 from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacles import Obstacles, obstacle_gaps, obstacles_of
 from app.hyperedges.clearance.own import OwnContacts, own_contacts
@@ -25,42 +25,6 @@ AT_ONCE = 16384
 
 MOST_CONFLICTS = 250_000
 """Pairs of hyperedges in conflict beyond which no others are looked for."""
-
-
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """The nearest place of a hyperedge, ``first``, and another or an item, ``second``.
-
-    ``lower`` and ``upper`` are bounds of the distance between the surfaces, negative where they
-    pass through each other; ``place`` is halfway between them.
-    """
-
-    with_item: bool
-    first: int
-    second: int
-    place: tuple[float, float, float]
-    lower: float
-    upper: float
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Conflicts:
-    """Pairs that are not proven to be clear, each once, at the nearest place.
-
-    ``with_items`` (k,): whether ``second`` (k,) is an item or a hyperedge with a larger number than
-    ``first`` (k,); pairs of hyperedges come first, sorted.
-    ``places`` (k, 3); ``lower`` and ``upper`` (k,): bounds of the distance between the surfaces.
-    """
-
-    with_items: NDArray[np.bool_]
-    first: Indices
-    second: Indices
-    places: Floats
-    lower: Floats
-    upper: Floats
-
-    def __len__(self) -> int:
-        return len(self.first)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -113,7 +77,7 @@ def certify(
     if not complete:
         minimum, nearest = -2.0 * float(routing.radii.max(initial=0.0)), None
     elif len(conflicts):
-        nearest = _nearest(conflicts)
+        nearest = nearest_of(conflicts)
         minimum = nearest.lower
     else:
         reach = clearance + AHEAD * float(routing.radii.max(initial=0.0))
@@ -179,7 +143,7 @@ class _Scene:
         )
         near = _Near(beside.points, beside.owners, beside.radii, tubes, beside.pairs)
         contacts = near.contacts(self.around.obstacles, everything)
-        return _once(contacts, everything.lower < clearance), complete
+        return once(contacts, everything.lower < clearance), complete
 
     def _nearest(self, pairs: Indices, found: Gaps) -> tuple[Indices, Gaps]:
         """Of the ``pairs`` (m, 2) of segments the nearest one for each pair of hyperedges."""
@@ -189,8 +153,8 @@ class _Scene:
         new = np.ones(len(order), dtype=np.bool_)
         new[1:] = (owners[1:] != owners[:-1]).any(axis=1)
         rows = order[new]
-        kept = Gaps(found.lower[rows], found.upper[rows], found.at[rows], found.places[rows])
-        return pairs[rows], kept
+        least = Gaps(found.lower[rows], found.upper[rows], found.at[rows], found.places[rows])
+        return pairs[rows], least
 
     def near(self, reach: float) -> _Near:
         """What may be nearer than ``reach``."""
@@ -248,41 +212,6 @@ def _refuse_infinite(routing: Routing, placement: Placement) -> None:
             raise ValueError("Only what is at finite places can be certified.")
 
 
-def _kept(conflicts: Conflicts, rows: Indices) -> Conflicts:
-    return Conflicts(
-        conflicts.with_items[rows],
-        conflicts.first[rows],
-        conflicts.second[rows],
-        conflicts.places[rows],
-        conflicts.lower[rows],
-        conflicts.upper[rows],
-    )
-
-
-def _once(all_pairs: Conflicts, wanted: NDArray[np.bool_]) -> Conflicts:
-    """The nearest of the wanted rows for each pair, sorted."""
-    rows = np.flatnonzero(wanted)
-    chosen = _kept(all_pairs, rows)
-    order = np.lexsort((chosen.lower, chosen.second, chosen.first, chosen.with_items))
-    names = np.stack([chosen.with_items, chosen.first, chosen.second])[:, order]
-    new = np.ones(len(order), dtype=np.bool_)
-    new[1:] = (names[:, 1:] != names[:, :-1]).any(axis=0)
-    return _kept(chosen, order[new])
-
-
-def _nearest(contacts: Conflicts) -> Contact:
-    row = int(contacts.lower.argmin())
-    x, y, z = contacts.places[row].tolist()
-    return Contact(
-        with_item=bool(contacts.with_items[row]),
-        first=int(contacts.first[row]),
-        second=int(contacts.second[row]),
-        place=(x, y, z),
-        lower=float(contacts.lower[row]),
-        upper=float(contacts.upper[row]),
-    )
-
-
 def _look_ahead(near: _Near, obstacles: Obstacles, reach: float) -> tuple[float, Contact | None]:
     """The smallest distance of pairs of segments, and of segments and boxes, below ``reach``.
 
@@ -298,6 +227,6 @@ def _look_ahead(near: _Near, obstacles: Obstacles, reach: float) -> tuple[float,
             # What was left early is not the nearest: its lower bound is above another's upper.
             rows = np.flatnonzero(found.upper < enough)
             row = rows[[int(found.upper[rows].argmin())]]
-            nearest = _nearest(_kept(some.contacts(obstacles, found), row))
+            nearest = nearest_of(kept(some.contacts(obstacles, found), row))
             enough = nearest.upper
     return lowest, nearest

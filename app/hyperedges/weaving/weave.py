@@ -18,21 +18,21 @@ from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
 from app.hyperedges.stopping import StoppedError
-from app.hyperedges.weaving.courses import AROUND, SOFT, STEEP
 from app.hyperedges.weaving.crossings import find_crossings
 from app.hyperedges.weaving.fabric import Fabric
 from app.hyperedges.weaving.grid import Grid, sort_into_cells
+from app.hyperedges.weaving.hardening import harden, troubled_threads
 from app.hyperedges.weaving.joins import settle_joins
 from app.hyperedges.weaving.legs import around_legs, control_legs, direct_legs
 from app.hyperedges.weaving.lifting import lift
-from app.hyperedges.weaving.loom import Check, Loom
+from app.hyperedges.weaving.loom import Loom
 from app.hyperedges.weaving.loose import lay_loosely
 from app.hyperedges.weaving.plan import Plan, draw_plan
 from app.hyperedges.weaving.storeys import first_fit, highest_under, stack
 from app.hyperedges.weaving.tangents import choose_tangents, inner_ends
 from app.hyperedges.weaving.threads import Still, Surroundings, Threads
 from app.hyperedges.weaving.towers import pass_above
-from app.hyperedges.weaving.ways import Ways, find_ways
+from app.hyperedges.weaving.ways import find_ways
 
 ATTEMPTS = 6
 """How often what fails is moved above the rest, at most."""
@@ -225,7 +225,7 @@ def _try(
     order = np.argsort(planes, kind="stable")
     planes = stack(crossings, order, lows, fixed, radii, clearance)
 
-    fabric, found = _harden(loom, ways, planes, check)
+    fabric, found = harden(loom, ways, planes, check)
     hit = np.zeros(len(still.planes), dtype=np.bool_)
     standing = found.hyperedges[found.hyperedges >= woven]
     hit[standing - woven] = True
@@ -238,43 +238,4 @@ def _try(
         found.faults.count,
         int(found.pinched.sum()),
     )
-    return made, _troubled(found, found.pinched | ways.blocked, edges, planes, woven)
-
-
-def _harden(
-    loom: Loom, ways: Ways, planes: Floats, check: Callable[[], None]
-) -> tuple[Fabric, Check]:
-    """Courses that are made stricter where they are too near to something, and what that leaves.
-
-    Of two that are too near the softer one is made stricter, or both.
-    """
-    count = len(loom.owners)
-    strictness = np.full(count, SOFT)
-    active = np.ones(count, dtype=np.bool_)
-    while True:
-        fabric = loom.lay(ways, strictness, planes)
-        found = loom.check(fabric, active, check)
-        level = np.append(strictness, AROUND)
-        first, second = level[found.near].T
-        softer = np.zeros(count + 1, dtype=np.bool_)
-        softer[found.near[first <= second, 0]] = True
-        softer[found.near[second <= first, 1]] = True
-        softer[found.at_items] = True
-        changed = softer[:-1] & (strictness < AROUND)
-        # Going around nothing does not unbend an edge.
-        changed |= found.pinched & (strictness < STEEP)
-        if not changed.any():
-            return fabric, found
-        strictness[changed] += 1
-        active = changed | (found.edges & (strictness == AROUND))
-
-
-def _troubled(
-    check: Check, wrong: NDArray[np.bool_], edges: Indices, planes: Floats, woven: int
-) -> Indices:
-    """Threads with edges that are ``wrong`` (e,), and the lower ones of those that are too near."""
-    first, second = check.hyperedges.T
-    lower = np.where(planes[first] <= planes[second], first, second)
-    upper = np.where(planes[first] <= planes[second], second, first)
-    found = np.where(lower < woven, lower, upper)
-    return np.unique(np.concatenate([found, edges[wrong]]))
+    return made, troubled_threads(found, found.pinched | ways.blocked, edges, planes, woven)

@@ -111,7 +111,10 @@ class Pinch:
 
 @dataclass(frozen=True, slots=True)
 class Clearance:
-    """What is proven about distances: no two surfaces are nearer than ``minimum``."""
+    """What is proven about distances: no two surfaces are nearer than ``minimum``.
+
+    Not ``complete`` where there are more conflicts than these, or nobody had the time to look.
+    """
 
     required: float
     certified: bool
@@ -120,6 +123,7 @@ class Clearance:
     conflicts: tuple[Contact, ...]
     own_contacts: tuple[OwnContact, ...]
     pinches: tuple[Pinch, ...]
+    complete: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,9 +136,13 @@ class Overlap:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Where everything is; ``clearance`` is None where the program asks for none."""
+    """Where everything is; ``clearance`` is None where the program asks for none.
+
+    ``stopped_by`` is ``"deadline"`` where this is the best that there was time for.
+    """
 
     items: tuple[PlacedItem, ...]
     hyperedges: tuple[RoutedHyperedge, ...]
     overlaps: tuple[Overlap, ...]
     clearance: Clearance | None
+    stopped_by: str | None = None

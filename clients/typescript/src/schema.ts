@@ -669,6 +669,12 @@ export interface components {
             own_contacts: components["schemas"]["OwnContact"][];
             /** Pinches */
             pinches: components["schemas"]["Pinch"][];
+            /**
+             * Complete
+             * @description False where there are more conflicts than are listed, or there was not time enough to look for them all; left out elsewhere.
+             * @default null
+             */
+            complete?: false | null;
         };
         /**
          * Cone
@@ -1754,6 +1760,12 @@ export interface components {
             overlaps: components["schemas"]["Overlap"][];
             /** @description Null where layout.clearance is null. */
             clearance: components["schemas"]["Clearance"] | null;
+            /**
+             * Stopped By
+             * @description `deadline` where there was not time enough for the layout, which is the best so far; left out elsewhere.
+             * @default null
+             */
+            stopped_by?: "deadline" | null;
         };
         /**
          * LineUp
@@ -3150,6 +3162,7 @@ export interface operations {
                     "Content-Disposition"?: string;
                     "Server-Timing"?: string;
                     "Tubeloom-Cache"?: string;
+                    "Tubeloom-Stopped-By"?: string;
                     "X-Request-ID"?: string;
                     [name: string]: unknown;
                 };
@@ -3474,6 +3487,7 @@ export interface operations {
                     "Content-Disposition"?: string;
                     "Server-Timing"?: string;
                     "Tubeloom-Cache"?: string;
+                    "Tubeloom-Stopped-By"?: string;
                     "X-Request-ID"?: string;
                     [name: string]: unknown;
                 };
@@ -3748,6 +3762,7 @@ export interface operations {
                     "Content-Disposition"?: string;
                     "Server-Timing"?: string;
                     "Tubeloom-Cache"?: string;
+                    "Tubeloom-Stopped-By"?: string;
                     "X-Request-ID"?: string;
                     [name: string]: unknown;
                 };
@@ -4392,6 +4407,7 @@ export interface operations {
                     ETag?: string;
                     Vary?: string;
                     "Content-Disposition"?: string;
+                    "Tubeloom-Stopped-By"?: string;
                     "X-Request-ID"?: string;
                     [name: string]: unknown;
                 };
@@ -5759,6 +5775,7 @@ export interface operations {
                     "Content-Disposition"?: string;
                     "Server-Timing"?: string;
                     "Tubeloom-Cache"?: string;
+                    "Tubeloom-Stopped-By"?: string;
                     "Tubeloom-Revision"?: string;
                     "Tubeloom-Since"?: string;
                     "X-Request-ID"?: string;
@@ -5900,6 +5917,7 @@ export interface operations {
                     "Content-Disposition"?: string;
                     "Server-Timing"?: string;
                     "Tubeloom-Cache"?: string;
+                    "Tubeloom-Stopped-By"?: string;
                     "Tubeloom-Revision"?: string;
                     "X-Request-ID"?: string;
                     [name: string]: unknown;
@@ -6017,6 +6035,7 @@ export interface operations {
                     "Content-Disposition"?: string;
                     "Server-Timing"?: string;
                     "Tubeloom-Cache"?: string;
+                    "Tubeloom-Stopped-By"?: string;
                     "Tubeloom-Revision"?: string;
                     "X-Request-ID"?: string;
                     [name: string]: unknown;
