@@ -203,7 +203,8 @@ class Unchanged:
 class Revised:
     """A revision of a stored program: its document in canonical form, and its layout as bytes.
 
-    ``changes`` are those since the revision before; of a first one, everything is added.
+    ``changes`` are those since the revision before; of a first one, everything is added. Where
+    there was not time enough for the layout, it is not ``complete``.
     """
 
     document: bytes
@@ -213,6 +214,7 @@ class Revised:
     items: int
     hyperedges: int
     changes: Changes
+    complete: bool = True
 
 
 def is_known(etag: str, known: frozenset[str]) -> bool:

@@ -96,6 +96,7 @@ def _revised(previous: Layout | None, laid: Layout, document: bytes, layout: byt
         items=len(program.items),
         hyperedges=len(program.hyperedges),
         changes=changes_between(previous, laid),
+        complete=laid.complete,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
-from typing import Self
+from typing import Literal, Self
 
 from pydantic import BaseModel, Field
 
@@ -59,6 +59,11 @@ class RevisionModel(BaseModel):
     can_undo: bool
     can_redo: bool
     created_at: datetime
+    stopped_by: Literal["deadline"] | None = Field(
+        None,
+        description="`deadline` where there was not time enough for the layout, which is the best "
+        "so far.",
+    )
 
     @classmethod
     def of(cls, record: Record) -> Self:
@@ -75,6 +80,7 @@ class RevisionModel(BaseModel):
             can_undo=record.undo_to is not None,
             can_redo=record.redo_to is not None,
             created_at=moment(record.created_at),
+            stopped_by="deadline" if record.stopped_by == "deadline" else None,
         )
 
 

@@ -38,6 +38,7 @@ _RECORD: tuple[Any, ...] = (
     revisions.c.undo_to,
     revisions.c.redo_to,
     revisions.c.created_at,
+    revisions.c.stopped_by,
 )
 
 
@@ -161,6 +162,7 @@ def add(
         undo_to,
         redo_to,
         at,
+        None if revised.complete else "deadline",
     )
     _insert(connection, record, revised.document, revised.layout)
     _forget(connection, program, number, keep)
@@ -256,6 +258,7 @@ def _insert(connection: Connection, record: Record, document: bytes, layout: byt
             undo_to=record.undo_to,
             redo_to=record.redo_to,
             created_at=record.created_at,
+            stopped_by=record.stopped_by,
         )
     )
 
@@ -289,4 +292,5 @@ def _record(row: Row[Any]) -> Record:
         row.undo_to,
         row.redo_to,
         row.created_at,
+        row.stopped_by,
     )

@@ -12,7 +12,10 @@ Cause: TypeAlias = Literal["put", "patch", "edit", "undo", "redo", "delete"]
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """What is known of a revision, but for its content."""
+    """What is known of a revision, but for its content.
+
+    ``stopped_by`` says what ended its layout early, if anything did.
+    """
 
     program: str
     number: int
@@ -25,6 +28,7 @@ class Record:
     undo_to: int | None
     redo_to: int | None
     created_at: int
+    stopped_by: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

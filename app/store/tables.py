@@ -51,6 +51,7 @@ revisions = Table(
     Column("undo_to", Integer, doc="The revision whose content an undo restores."),
     Column("redo_to", Integer, doc="The revision whose content a redo restores."),
     Column("created_at", BigInteger, nullable=False),
+    Column("stopped_by", String(20), doc="What ended the layout early: deadline, or nothing."),
 )
 
 requests = Table(

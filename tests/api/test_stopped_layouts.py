@@ -123,6 +123,7 @@ def test_a_stored_layout_stays_as_it_is_until_the_program_is_put_again(folder: P
     with running_service(folder, layout_share=0) as hurried, hurried.client() as client:
         first = client.put(program, json=document)
         assert first.status_code == 201
+        assert first.json()["stopped_by"] == "deadline"
         scene = client.get(f"{program}/render?format=glb")
         assert scene.headers[HEADER] == "deadline"
         # It is stored, so that whoever asks again gets the same.
@@ -130,7 +131,9 @@ def test_a_stored_layout_stays_as_it_is_until_the_program_is_put_again(folder: P
         assert client.get(f"{program}/render?format=glb", headers=again).status_code == 304
         patch = {"content-type": "application/merge-patch+json"}
         renamed = client.patch(program, content=json.dumps({"name": "Renamed"}), headers=patch)
-        assert renamed.status_code == 200
+        assert renamed.json()["stopped_by"] == "deadline"
+        told = client.get(f"{program}/revisions").json()["revisions"]
+        assert [each["stopped_by"] for each in told] == ["deadline", "deadline"]
         numbers = client.get(f"{program}/layout")
         assert numbers.headers[HEADER] == "deadline"
         assert numbers.json()["stopped_by"] == "deadline"
@@ -139,7 +142,8 @@ def test_a_stored_layout_stays_as_it_is_until_the_program_is_put_again(folder: P
         kept = client.get(f"{program}/layout")
         assert kept.json() == numbers.json()
         assert kept.headers[HEADER] == "deadline"
-        assert client.put(program, json=document).json()["revision"] == 3
+        put = client.put(program, json=document).json()
+        assert (put["revision"], put["stopped_by"]) == (3, None)
         whole = client.get(f"{program}/layout")
         assert HEADER not in whole.headers
         assert "stopped_by" not in whole.json()

@@ -60,7 +60,10 @@ class Stored:
 
 @dataclass(frozen=True, slots=True)
 class Revision:
-    """One state of a stored program, and what led to it: put, patch, edit, undo or redo."""
+    """One state of a stored program, and what led to it: put, patch, edit, undo or redo.
+
+    ``stopped_by`` is ``"deadline"`` where its layout is the best that there was time for.
+    """
 
     revision: int
     cause: str
@@ -72,6 +75,7 @@ class Revision:
     can_undo: bool
     can_redo: bool
     created_at: datetime
+    stopped_by: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -2542,6 +2542,12 @@ export interface components {
              * Format: date-time
              */
             created_at: string;
+            /**
+             * Stopped By
+             * @description `deadline` where there was not time enough for the layout, which is the best so far.
+             * @default null
+             */
+            stopped_by?: "deadline" | null;
         };
         /**
          * RoutedHyperedge
