@@ -135,6 +135,7 @@ def render(
         if is_known(etag, known):
             return Unchanged(etag)
         laid = recent or (None if layout is None else read_layout(program, layout))
+        is_stored = laid is not None and not options.sweep
         laying: Spent = partial(share_spent, spent, settings.layout_share)
         if options.stretch is not None:  # others draw theirs of the same layout, which is whole
             laying = nothing_spent
@@ -152,7 +153,7 @@ def render(
         return Answer(
             body,
             options.format.media_type,
-            None if artist.ran_out_of_time or (stopped and layout is None) else etag,
+            None if artist.ran_out_of_time or (stopped and not is_stored) else etag,
             program.name,
             artist.notes | (STOPPED if stopped else {}),
         )
@@ -252,6 +253,7 @@ def layout_of(
     if is_known(etag, known):
         return Unchanged(etag)
     laid = None if layout is None else read_layout(program, layout)
+    is_stored = laid is not None
     laying = partial(share_spent, spent, settings.layout_share)
     laid = laid or (shared or SharedLayout()).of(program, progress, laying)
     progress("proving clearance", 0.5)
@@ -267,7 +269,7 @@ def layout_of(
     return Answer(
         body,
         "application/json",
-        etag if is_proven and (laid.complete or layout is not None) else None,
+        etag if is_proven and (laid.complete or is_stored) else None,
         program.name,
         {} if is_proven and laid.complete else STOPPED,
     )

@@ -47,10 +47,10 @@ def revise(
     do; then nothing has happened. When the time for the layout is ``spent``, it is the best so far.
     """
     progress("reading", 0.0)
-    previous = _previous(document, layout, settings)
+    previous = _previous(document, layout, settings, spent)
     before = None if previous is None else previous.program
     if isinstance(change, Restoration):
-        revised = _restored(previous, change, settings)
+        revised = _restored(previous, change, settings, spent)
     else:
         edited = _changed(before, document, change, settings)
         known = None
@@ -67,21 +67,25 @@ def revise(
     return revised
 
 
-def _previous(document: bytes, layout: bytes | None, settings: Settings) -> Layout | None:
+def _previous(
+    document: bytes, layout: bytes | None, settings: Settings, spent: Spent
+) -> Layout | None:
     if not document:
         return None
     if (recent := recent_layouts.get(document, layout)) is not None:
         return recent
     program = read_program(document, settings)
     read = None if layout is None else read_layout(program, layout)
-    return read or lay_out(program)
+    return read or lay_out(program, spent=spent)
 
 
-def _restored(previous: Layout | None, change: Restoration, settings: Settings) -> Revised:
+def _restored(
+    previous: Layout | None, change: Restoration, settings: Settings, spent: Spent
+) -> Revised:
     program = read_program(change.document, settings)
     kept = read_layout(program, change.layout)
     if kept is None:
-        laid = lay_out(program)
+        laid = lay_out(program, spent=spent)
         return _revised(previous, laid, change.document, write_layout(laid))
     return _revised(previous, kept, change.document, change.layout)
 
