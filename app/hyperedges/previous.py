@@ -9,7 +9,8 @@ import numpy as np
 from app.arrays import Flags, Floats, Indices
 from app.grouped import rows_from, rows_of
 from app.hyperedges.clearance.near_items import ItemsAround
-from app.hyperedges.clearance.obstacles import Obstacles, obstacle_gaps, obstacles_of
+from app.hyperedges.clearance.obstacle_gaps import obstacle_gaps
+from app.hyperedges.clearance.obstacles import Obstacles, obstacles_of
 from app.hyperedges.routing import Routing
 from app.placement.placement import Placement
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -18,8 +17,10 @@ from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacles import obstacles_of
 from app.hyperedges.elastic.faults import Curves, find_faults
 from app.hyperedges.elastic.fixed import curves_of
+from app.hyperedges.fault_count import NONE, UNKNOWN, Count
 from app.hyperedges.joining import merge
 from app.hyperedges.previous import Previous, keepable
+from app.hyperedges.router import Progress, Router
 from app.hyperedges.routing import Routing
 from app.hyperedges.stopping import Allowance, StoppedError
 from app.placement.placement import Placement
@@ -30,55 +31,8 @@ HITS = 3
 ROOM = 12.0
 """How near to a conflict hyperedges leave little room for others, over the largest radius."""
 
-Progress = Callable[[float], None]
-"""Told which share of the work is done at least, from 0 to 1.
-
-It may raise to end it; where it raises `StoppedError`, the best so far is what comes of it.
-"""
-
 FOR_FIRST = 0.5
 """Share of the time after which the first of two routers ends, so that the other has some, too."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Routed:
-    """Curves of some hyperedges.
-
-    ``is_proven``: that nothing is wrong with them. ``was_stopped``: before anybody had looked.
-    """
-
-    routing: Routing
-    is_proven: bool = False
-    was_stopped: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Router:
-    """A way to find curves, by relaxation if it ``is_elastic``.
-
-    ``route(chosen, others, progress)`` makes curves of the hyperedges of the numbers ``chosen``
-    (c,), ascending, beside those of all ``others``, in the order of their numbers.
-    """
-
-    is_elastic: bool
-    route: Callable[[Indices, Routing, Progress], Routed]
-
-
-class Count(NamedTuple):
-    """Pairs of hyperedges, or of a hyperedge and an item, that are too near to each other.
-
-    And ``others``: segments that pinch, and hyperedges that touch themselves. Fewer conflicts count
-    more than fewer of these.
-    """
-
-    conflicts: int
-    others: int
-
-
-NONE = Count(0, 0)
-
-UNKNOWN = Count(1 << 60, 0)
-"""Where there was no time to count."""
 
 
 def reroute(

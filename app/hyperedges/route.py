@@ -13,7 +13,8 @@ from app.hyperedges.elastic.limits import can_relax
 from app.hyperedges.elastic.route import elastic_router
 from app.hyperedges.join_planes import choose_join_planes
 from app.hyperedges.previous import Previous, known_planes
-from app.hyperedges.rerouting import Progress, reroute
+from app.hyperedges.rerouting import reroute
+from app.hyperedges.router import Progress
 from app.hyperedges.routing import Routing
 from app.hyperedges.stopping import Allowance
 from app.hyperedges.woven import lay_all, plane_router

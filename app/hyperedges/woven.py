@@ -11,7 +11,7 @@ from app.grouped import rows_of, starts_of
 from app.hyperedges.clearance.obstacles import obstacles_of
 from app.hyperedges.clearance.passable import passable_items
 from app.hyperedges.join_planes import choose_join_planes
-from app.hyperedges.rerouting import Progress, Routed, Router
+from app.hyperedges.router import Progress, Routed, Router
 from app.hyperedges.routing import Routing
 from app.hyperedges.weaving.loose import lay_loosely
 from app.hyperedges.weaving.numbering import number

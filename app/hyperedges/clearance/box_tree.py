@@ -10,27 +10,19 @@ Boxes of different layers do not meet.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from app.arrays import Flags, Floats, Indices
+from app.hyperedges.clearance.parallel import in_parts
 
 FULL = 4
 """Boxes in a leaf."""
 
 DEEPEST = 64
 """Nodes that wait while the tree is searched: one for each level and one more suffice."""
-
-FEW = 4096
-"""Rows below which a second thread costs more than it saves."""
-
-
-CORES = os.cpu_count() or 1
 
 MOST_PAIRS = 1 << 60
 """More than there can be."""
@@ -52,21 +44,6 @@ class Tree(NamedTuple):
     places: Indices
     boxes: Floats
     nodes: Floats
-
-
-def in_parts(count: int, work: Callable[[int, int], Any], few: int = FEW) -> list[Any]:
-    """The results of ``work(begin, end)`` on stretches of ``count`` rows, in order.
-
-    Threads, where each has ``few`` rows or more to do; ``work`` has to give up the interpreter's
-    lock.
-    """
-    threads = min(CORES, count // few)
-    if threads < 2:
-        return [work(0, count)]
-    # More parts than threads, because some take longer.
-    cuts = np.linspace(0, count, 4 * threads + 1).astype(np.int64).tolist()
-    with ThreadPoolExecutor(threads) as pool:
-        return list(pool.map(work, cuts[:-1], cuts[1:]))
 
 
 def plant(boxes: Floats) -> Tree:

@@ -10,7 +10,8 @@ import numpy as np
 from app.arrays import Floats, Indices
 from app.hyperedges.clearance.conflicts import Conflicts, Contact, kept, nearest_of, once
 from app.hyperedges.clearance.near_items import ItemsAround
-from app.hyperedges.clearance.obstacles import Obstacles, obstacle_gaps, obstacles_of
+from app.hyperedges.clearance.obstacle_gaps import obstacle_gaps
+from app.hyperedges.clearance.obstacles import Obstacles, obstacles_of
 from app.hyperedges.clearance.own import OwnContacts, own_contacts
 from app.hyperedges.clearance.pairs import Gaps, close_parts, gaps, joined, near_pairs
 from app.hyperedges.routing import Routing

@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from app.arrays import Flags, Floats, Indices
-from app.hyperedges.clearance.obstacles import Obstacles, near_obstacles
+from app.hyperedges.clearance.obstacle_gaps import near_obstacles
+from app.hyperedges.clearance.obstacles import Obstacles
 from app.hyperedges.clearance.own_bodies import beyond_own_balls, leaving_radii
 from app.hyperedges.clearance.passable import are_among, attached_items, containing_items
 from app.placement.placement import Placement

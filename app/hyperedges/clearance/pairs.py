@@ -10,9 +10,10 @@ from numba import njit
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
-from app.hyperedges.clearance.box_tree import in_parts, meeting, plant
+from app.hyperedges.clearance.box_tree import meeting, plant
 from app.hyperedges.clearance.distance import search
 from app.hyperedges.clearance.few_boxes import FEW, meeting_among
+from app.hyperedges.clearance.parallel import in_parts
 from app.hyperedges.clearance.search import workspace
 from app.hyperedges.stopping import unchecked
 

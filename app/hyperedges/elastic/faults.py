@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import Flags, Floats, Indices
 from app.hyperedges.clearance.near_items import ItemsAround
-from app.hyperedges.clearance.obstacles import obstacle_gaps
+from app.hyperedges.clearance.obstacle_gaps import obstacle_gaps
 from app.hyperedges.clearance.own import own_contacts
 from app.hyperedges.clearance.pairs import boxes, close_pairs
 from app.hyperedges.pinches import find_pinches

@@ -23,6 +23,7 @@ from app.hyperedges.elastic.run import (
     higher,
     run,
 )
+from app.hyperedges.elastic.windows import windows
 from app.hyperedges.routing import Routing
 from app.hyperedges.stopping import StoppedError
 
@@ -148,32 +149,11 @@ def _moved(state: State, before: Floats) -> Flags:
     return found
 
 
-def _windows(
-    pieces: Pieces, state: State, segments: Indices, wider: int
-) -> tuple[Indices, Indices]:
-    """Beads along the cubics ``segments`` (n,) and ``wider`` beyond: (n, w), -1 where none is.
-
-    And the same as segments of chains.
-    """
-    beads = state.beads
-    chain = pieces.chains[segments]
-    counts = np.diff(beads.segment_starts)[chain]
-    spans = pieces.spans[segments]
-    most = int((spans[:, 1] - spans[:, 0]).max(initial=0)) + 2 * wider + 1
-    step = spans[:, :1] - wider + np.arange(most)
-    inside = (step >= 0) & (step <= counts[:, None]) & (step <= spans[:, 1:] + wider)
-    bead = beads.starts[chain][:, None] + step - 1
-    bead = np.where(step == 0, beads.ends[chain, 0][:, None], bead)
-    bead = np.where(step == counts[:, None], beads.ends[chain, 1][:, None], bead)
-    line = np.where(step < counts[:, None], beads.segment_starts[chain][:, None] + step, -1)
-    return np.where(inside, bead, -1), np.where(inside, line, -1)
-
-
 def _loosen(state: State, pieces: Pieces, faults: Faults) -> None:
     """More slack for segments that come too near."""
     count = len(pieces.chains)
     others = faults.others[(faults.others >= 0) & (faults.others < count)]
-    _, lines = _windows(pieces, state, np.unique(np.concatenate([faults.segments, others])), 2)
+    _, lines = windows(pieces, state, np.unique(np.concatenate([faults.segments, others])), 2)
     rows = np.unique(lines[lines >= 0])
     state.slack[rows] = np.minimum(state.slack[rows] + 1.0, MOST_SLACK)
     middles = state.x[state.beads.segments[: state.beads.segment_starts[-1]]].mean(axis=1)
@@ -193,7 +173,7 @@ def _push(state: State, pieces: Pieces, faults: Faults, clearance: float) -> Non
         rows = np.flatnonzero(both & (segments < count))
         if len(rows) == 0:
             continue
-        beads, _ = _windows(pieces, state, segments[rows], 2)
+        beads, _ = windows(pieces, state, segments[rows], 2)
         inside = (beads >= 0) & (state.beads.free[beads] > 0.0)
         far = np.linalg.norm(state.x[beads] - faults.places[rows, None], axis=2)
         radius = state.chains.radii[state.chains.owners[pieces.chains[segments[rows]]]]
@@ -211,8 +191,8 @@ def _smooth(state: State, pieces: Pieces, pinched: Indices) -> None:
     """Wider bends where curves bend too much; at joins, beads between their neighbours."""
     if len(pinched) == 0:
         return
-    windows, _ = _windows(pieces, state, pinched, 1)
-    beads = np.unique(windows[windows >= 0])
+    along, _ = windows(pieces, state, pinched, 1)
+    beads = np.unique(along[along >= 0])
     state.bends[beads] = np.minimum(
         WIDER * state.bends[beads], MOST_WIDER * TIGHTEST * state.beads.thickness[beads]
     )
@@ -220,8 +200,8 @@ def _smooth(state: State, pieces: Pieces, pinched: Indices) -> None:
     at_join = state.chains.ends[chain] < state.chains.joins
     at_join[:, 0] &= spans[:, 0] == 0
     at_join[:, 1] &= spans[:, 1] == np.diff(state.beads.segment_starts)[chain]
-    windows, _ = _windows(pieces, state, pinched[at_join.any(axis=1)], 1)
-    beads = np.unique(windows[windows >= 0])
+    along, _ = windows(pieces, state, pinched[at_join.any(axis=1)], 1)
+    beads = np.unique(along[along >= 0])
     beads = beads[state.beads.free[beads] > 0.0]
     links, degrees = state.beads.links[beads], state.beads.degrees[beads]
     for _ in range(SMOOTHINGS):

@@ -14,7 +14,7 @@ from app.hyperedges.elastic.relaxed import relaxed
 from app.hyperedges.elastic.rounded_boxes import boxes_of
 from app.hyperedges.elastic.run import Surroundings
 from app.hyperedges.elastic.start import chains_of
-from app.hyperedges.rerouting import Progress, Routed, Router
+from app.hyperedges.router import Progress, Routed, Router
 from app.hyperedges.routing import Routing
 from app.placement.placement import Placement
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
-from app.hyperedges.clearance.obstacles import near_obstacles, obstacle_gaps
+from app.hyperedges.clearance.obstacle_gaps import near_obstacles, obstacle_gaps
 from app.hyperedges.clearance.pairs import close_pairs
 from app.hyperedges.stopping import unchecked
 from app.hyperedges.weaving.threads import Surroundings

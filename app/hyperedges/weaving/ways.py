@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from app.arrays import Floats, Indices
 from app.grouped import starts_of
-from app.hyperedges.clearance.box_tree import CORES, in_parts
+from app.hyperedges.clearance.parallel import CORES, in_parts
 from app.hyperedges.stopping import unchecked
 from app.hyperedges.weaving.detours import find_way
 from app.hyperedges.weaving.grid import Grid, collect

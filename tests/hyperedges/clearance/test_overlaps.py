@@ -13,7 +13,7 @@ from app.hyperedges.clearance.overlaps import MOST, find_overlaps
 from app.placement.placement import Placement
 from app.solids.solid import Box, Solid, Sphere, Tray
 from tests.hyperedges.clearance.furniture import furnished, label
-from tests.hyperedges.clearance.test_obstacles import beyond
+from tests.hyperedges.clearance.test_obstacle_gaps import beyond
 from tests.hyperedges.clearance.test_own_bodies import quaternions, vectors
 
 CUBE = Box((1.0, 1.0, 1.0), 0.05)

@@ -18,7 +18,7 @@ from app.solids.csg_tree import Leaf
 from app.solids.solid import Box, Csg, Cylinder, Solid, Sphere, Tray
 from tests.hyperedges.clearance.curves import CASES, points_at
 from tests.hyperedges.clearance.furniture import furnished, routed
-from tests.hyperedges.clearance.test_obstacles import beyond
+from tests.hyperedges.clearance.test_obstacle_gaps import beyond
 
 RADIUS, CLEARANCE = 0.1, 0.05
 BALL = LEAVING * (RADIUS + CLEARANCE)
