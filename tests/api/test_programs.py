@@ -105,7 +105,7 @@ def test_a_document_may_come_without_a_media_type(client: httpx.Client) -> None:
 def test_layout_answers_numbers(client: httpx.Client) -> None:
     numbers = client.post("/v1/layout", json=SMALL).json()
     assert [item["id"] for item in numbers["items"]] == ["x", "y", "z"]
-    assert len(numbers["hyperedges"][0]["segments"]) == 3
+    assert len(numbers["hyperedges"][0]["segments"]) >= 3
     assert not numbers["hyperedges"][0]["segments"][0].get("patches")
 
 
