@@ -31,7 +31,10 @@ CASES: list[tuple[Kind, int, int]] = [
     *(("space", 10, seed) for seed in range(6)),
     ("space", 10, 16),  # an attachment leads below the ground that all items stand above
     *(("space", 30, seed) for seed in range(3)),
+    ("space", 30, 16),  # an attachment leads downwards just above the ground
     ("space", 100, 0),
+    ("space", 100, 18),  # a tube passes its own item beside where another end attaches to it
+    ("space", 100, 33),  # a tube has to make a U-turn between two others
 ]
 
 
