@@ -12,7 +12,7 @@ from app.hyperedges.clearance.obstacles import Obstacles
 from app.hyperedges.elastic.capsules import LEAST_SHARE
 from app.placement.placement import Placement
 
-PLACES = (0.5, 0.0, 1.0)
+PLACES = (0.5, 0.0, 1.0, 0.25, 0.75)
 """Places of a segment that are looked at, as shares of its length, beside the nearest."""
 
 SOFTLY = 0.5

@@ -30,6 +30,7 @@ CASES: list[tuple[Kind, int, int]] = [
     *(("ground", 30, seed) for seed in range(3)),
     *(("space", 10, seed) for seed in range(6)),
     ("space", 10, 16),  # an attachment leads below the ground that all items stand above
+    ("space", 10, 29),  # a tube turns closely around an edge of its own item
     *(("space", 30, seed) for seed in range(3)),
     ("space", 30, 16),  # an attachment leads downwards just above the ground
     ("space", 100, 0),
