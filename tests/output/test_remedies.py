@@ -5,8 +5,13 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import numpy as np
+import pytest
+
+from app.hyperedges.clearance.conflicts import Conflicts
 from app.layout import judge, lay_out
 from app.output.clearance_numbers import clearance_numbers
+from app.output.remedies import remedies
 from app.program.reading import read_program
 from app.settings import Settings
 from tests.service import Service
@@ -72,15 +77,29 @@ def test_items_that_stand_in_the_way_are_to_be_moved() -> None:
     assert not conflicts(document)
 
 
-def test_a_point_within_its_item_is_to_face_outwards() -> None:
-    document = two([{"id": "p", "position": [0.5, 0, 0], "direction": [-1, 0, 0]}], [ENDS[0], {}])
-    (found,) = conflicts(document)
-    assert found["item"] == "a"
-    assert found["remedy"] == (
-        "Let the point 'p' on 'a' face outwards, or leave its direction out."
+@pytest.mark.parametrize(
+    ("with_item", "second", "place", "words"),
+    [
+        (True, 0, [0.6, 0.0, 0.5], "Let the point 'p' on 'a' face outwards, or leave its"),
+        (True, 2, [3.0, 0.0, 0.5], "Move 'c' out of the way, or the items between which it"),
+        (False, 1, [3.0, 0.0, 0.5], "Move the items between which both run farther apart, or"),
+    ],
+)
+def test_what_is_wrong_elsewhere_has_a_remedy_too(
+    with_item: bool, second: int, place: list[float], words: str
+) -> None:
+    document = two([point("p", 0.3), point("q", -0.3)], ENDS)
+    program = read_program(json.dumps(document).encode(), Settings())
+    found = Conflicts(
+        np.array([with_item]),
+        np.array([0]),
+        np.array([second]),
+        np.array([place]),
+        np.zeros(1),
+        np.zeros(1),
     )
-    document["items"][0]["attachment_points"][0]["direction"] = [1, 0, 0]
-    assert not conflicts(document)
+    (remedy,) = remedies(program, lay_out(program).placement, found, 0.05)
+    assert remedy.startswith(words)
 
 
 def test_remedies_are_told_over_http(usual_service: Service) -> None:
