@@ -21,8 +21,9 @@ import psutil
 
 Found = TypeVar("Found")
 
-PATIENCE_SECONDS = 90.0
-"""For what should take a second or two, on a machine that compiles kernels for the first time."""
+PATIENCE_SECONDS = 240.0
+"""For what should take a second or two, on a busy machine that compiles kernels for the first time:
+that alone may take minutes."""
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import Any
 
 import httpx
 
-from tests.service import fresh, until
+from tests.service import PATIENCE_SECONDS, fresh, until
 
 OVER = {"done", "failed", "cancelled"}
 
@@ -64,7 +64,7 @@ def state(client: httpx.Client, job: str) -> dict[str, Any]:
     return found
 
 
-def over(client: httpx.Client, job: str, seconds: float = 90.0) -> dict[str, Any]:
+def over(client: httpx.Client, job: str, seconds: float = PATIENCE_SECONDS) -> dict[str, Any]:
     """How a job is once it is over."""
 
     def look() -> dict[str, Any] | None:
