@@ -10,11 +10,14 @@ import numpy as np
 from app.arrays import Flags, Floats, Indices
 from app.hyperedges.clearance.near_items import ItemsAround
 from app.hyperedges.clearance.obstacle_gaps import obstacle_gaps
+from app.hyperedges.clearance.obstacles import Obstacles
 from app.hyperedges.clearance.own import own_contacts
 from app.hyperedges.clearance.pairs import boxes, close_pairs
 from app.hyperedges.pinches import find_pinches
 from app.hyperedges.routing import Routing
 from app.hyperedges.stopping import unchecked
+
+TINY = 1e-12
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,8 +44,8 @@ class Faults:
 
     ``segments`` (n,) come too near; ``others`` (n,): to which other segment, those that are kept
     behind those that move, or -1 for an item; ``items`` (n,): to which item, or -1.
-    ``places`` (n, 3) are halfway, ``ways`` (n, 3) unit vectors from the other one to the segment (0
-    at items), ``lower`` (n,) bounds of the distance.
+    ``places`` (n, 3) are halfway, ``ways`` (n, 3) unit vectors from the other one to the
+    segment, ``lower`` (n,) bounds of the distance.
     ``pinched`` (p,) segments; ``own`` (k,) hyperedges that touch themselves, at ``own_places``
     (k, 3). ``hit`` (m,): kept hyperedges, by their owners' numbers.
     """
@@ -112,7 +115,9 @@ def find_faults(
             [np.full(len(pairs), -1), around.obstacles.items[near.pairs[close, 1]]]
         ),
         places=np.concatenate([places, beside.places[close]]),
-        ways=np.concatenate([ways, np.zeros((int(close.sum()), 3))]),
+        ways=np.concatenate(
+            [ways, _outward(around.obstacles, near.pairs[close, 1], beside.places[close])]
+        ),
         lower=np.concatenate([lower, beside.lower[close]]),
         pinched=asking[find_pinches(some).segments],
         own=part[own.hyperedges],
@@ -143,3 +148,18 @@ def _ways(points: Floats, pairs: Indices, at: Floats) -> Floats:
     there = np.einsum("nkij,nkjc->nkc", weights, points[pairs])
     way = there[:, 0] - there[:, 1]
     return np.asarray(way / np.maximum(np.linalg.norm(way, axis=1), 1e-12)[:, None])
+
+
+def _outward(obstacles: Obstacles, boxes: Indices, places: Floats) -> Floats:
+    """Unit vectors (n, 3) from ``boxes`` (n,) of obstacles to ``places`` (n, 3).
+
+    From within a box by the shortest way out.
+    """
+    frames, halves = obstacles.rotations[boxes], obstacles.halves[boxes]
+    local = np.einsum("nij,ni->nj", frames, places - obstacles.centers[boxes])
+    ways = local - np.clip(local, -halves, halves)
+    inside = np.flatnonzero(np.abs(ways).max(axis=1, initial=0.0) < TINY)
+    axis = np.argmin(halves[inside] - np.abs(local[inside]), axis=1)
+    ways[inside, axis] = np.where(local[inside, axis] < 0.0, -1.0, 1.0)
+    lengths = np.linalg.norm(ways, axis=1)[:, None]
+    return np.asarray(np.einsum("nij,nj->ni", frames, ways / np.maximum(lengths, TINY)))

@@ -166,11 +166,10 @@ def _loosen(state: State, pieces: Pieces, faults: Faults) -> None:
 
 
 def _push(state: State, pieces: Pieces, faults: Faults, clearance: float) -> None:
-    """Move beads of two curves apart where these come too near."""
+    """Move beads of two curves apart where these come too near, and away from items."""
     count = len(pieces.chains)
-    both = faults.others >= 0
     for segments, sign in ((faults.segments, 1.0), (faults.others, -1.0)):
-        rows = np.flatnonzero(both & (segments < count))
+        rows = np.flatnonzero((segments >= 0) & (segments < count))
         if len(rows) == 0:
             continue
         beads, _ = windows(pieces, state, segments[rows], 2)
