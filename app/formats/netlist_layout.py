@@ -12,7 +12,7 @@ from pydantic import JsonValue
 from app.formats.columns import depths, levels
 from app.formats.netlist import Bit
 from app.program.base import Vector
-from app.program.model import AttachmentPoint, Item
+from app.program.model import AttachmentPoint, Flow, Item
 from app.program.shapes import Box
 
 PITCH = 0.36
@@ -48,6 +48,13 @@ class Side(Enum):
     LEFT = (-1, 0)
     RIGHT = (1, 0)
     BACK = (0, 1)
+
+    @property
+    def flow(self) -> Flow:
+        """Which way the pin's net goes, seen from the block."""
+        if self is Side.BACK:
+            return "both"
+        return "in" if self is Side.LEFT else "out"
 
 
 @dataclass(frozen=True, slots=True)

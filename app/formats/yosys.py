@@ -95,7 +95,9 @@ def _hyperedges(module: Module, nets: Mapping[Bit, Net]) -> Iterator[Hyperedge]:
             id=f"constant:{bit}" if constant else f"net:{bit}",
             kind="clock" if not constant and any(_is_clocked(*end) for end in pins) else "net",
             label=short(str(bit) if constant else names.get(bit, f"net {bit}")),
-            attachments=tuple(Attachment(item=block.id, point=pin.id) for block, pin in pins),
+            attachments=tuple(
+                Attachment(item=block.id, point=pin.id, flow=pin.side.flow) for block, pin in pins
+            ),
         )
 
 

@@ -12,6 +12,7 @@ from app.program.shapes import Shape
 Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 MaterialName = Literal["plastic", "metal", "glass", "wood", "stone", "matte", "plain"]
 Routing = Literal["planes", "elastic", "auto"]
+Flow = Literal["in", "out", "both"]
 Clearance = Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)]
 Finish = Literal["shiny", "satin", "matte"]
 
@@ -58,6 +59,11 @@ class Attachment(Part):
         None,
         description="Left out: the middle of the item's top face. Hyperedges that would end at the "
         "same place get places side by side.",
+    )
+    flow: Flow | None = Field(
+        None,
+        description="Which way it goes, seen from the item: 'out' of an item that drives the "
+        "hyperedge, 'in' to one that takes from it. Left out, nothing is known.",
     )
 
 

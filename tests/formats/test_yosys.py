@@ -330,3 +330,34 @@ def test_a_ring_of_cells_is_cut_somewhere() -> None:
     program = netlist(m={"cells": cells})
     assert len(program.hyperedges) == 5
     assert len({item.position for item in program.items}) == 5
+
+
+def test_attachments_flow_as_the_ports_say() -> None:
+    program = netlist(
+        top={
+            "ports": {"a": {"direction": "input", "bits": [2]}},
+            "cells": {
+                "pad": {
+                    "type": "pad",
+                    "port_directions": {"A": "input", "P": "inout", "Q": "output"},
+                    "connections": {"A": [2], "P": [3], "Q": [4]},
+                },
+                "sink": {
+                    "type": "sink",
+                    "port_directions": {"P": "input", "Q": "input"},
+                    "connections": {"P": [3], "Q": [4]},
+                },
+            },
+        }
+    )
+    flows = {
+        (end.item, end.point): end.flow for edge in program.hyperedges for end in edge.attachments
+    }
+    assert flows == {
+        ("port:a", "a"): "out",
+        ("cell:pad", "A"): "in",
+        ("cell:pad", "P"): "both",
+        ("cell:sink", "P"): "in",
+        ("cell:pad", "Q"): "out",
+        ("cell:sink", "Q"): "in",
+    }

@@ -559,6 +559,12 @@ export interface components {
              * @default null
              */
             point?: string | null;
+            /**
+             * Flow
+             * @description Which way it goes, seen from the item: 'out' of an item that drives the hyperedge, 'in' to one that takes from it. Left out, nothing is known.
+             * @default null
+             */
+            flow?: ("in" | "out" | "both") | null;
         };
         /**
          * AttachmentPoint
