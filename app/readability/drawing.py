@@ -12,6 +12,7 @@ from app.hyperedges.routing import Routing
 from app.placement.placement import Placement
 from app.placement.turning import matrices
 from app.readability.lines import Lines, lines_along
+from app.solids.solid import Text
 
 
 class Balls(NamedTuple):
@@ -70,13 +71,18 @@ def drawing_of(routing: Routing, placement: Placement) -> Drawing:
 
 
 def labels_of(placement: Placement) -> Labels:
-    """All labels, where they are in the world."""
+    """All labels, where they are in the world; items that are letters themselves among them."""
     rows = [number for number, label in enumerate(placement.labels) if label is not None]
+    letters = [number for number, solid in enumerate(placement.solids) if isinstance(solid, Text)]
     labels = [label for label in placement.labels if label is not None]
     within = np.array([label.position for label in labels]).reshape(-1, 3)
     turned = np.einsum("kij,kj->ki", matrices(placement.rotations[rows]), within)
     sizes = np.array([label.size[:2] for label in labels]).reshape(-1, 2)
-    return Labels(placement.centers[rows] + turned, sizes, np.array(rows, dtype=np.int64))
+    return Labels(
+        np.concatenate([placement.centers[rows] + turned, placement.centers[letters]]),
+        np.concatenate([sizes, placement.sizes[letters, :2]]),
+        np.array([*rows, *letters], dtype=np.int64),
+    )
 
 
 def faces_of(boxes: Obstacles) -> Triangles:

@@ -102,3 +102,13 @@ def test_the_first_of_the_views_with_the_fewest_crossings() -> None:
     views = [seen_from(x, y, z) for x, y, z in directions(20).tolist()]
     best = fewest_crossings(drawing, views)
     assert crossings_seen(drawing, views[best]) == (0, 0)
+
+
+def test_items_that_are_letters_are_labels() -> None:
+    text = {"id": "t", "label": "read me", "shape": {"type": "text"}, "position": [0, 0, 0]}
+    roof = {"id": "r", "shape": {"type": "box", "size": [9, 9, 1]}, "position": [0, 0, 5]}
+    shares = [
+        readability(drawn(items=items), ABOVE).free_labels
+        for items in ([text], [text, roof])
+    ]
+    assert shares == [1.0, 0.0]
