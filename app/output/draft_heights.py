@@ -16,6 +16,9 @@ TEXELS = 128
 BLURS = 0.25, 0.8
 """How far the near and the wide darkness beside an item go, in shares of the scene's reach."""
 
+UPRIGHT = 3.0
+"""What is so many times as wide and as high as it is deep, stands upright."""
+
 _MARGIN = 3.0
 """Of so many times that reach around all items."""
 
@@ -35,8 +38,8 @@ class Heights:
 
 
 def heights(scene: DraftScene) -> Heights | None:
-    """Of the scene's items; ``None`` where they are none."""
-    if scene.reach <= 0.0:
+    """Of the scene's items; ``None`` where they are none, or stand one above another."""
+    if scene.reach <= 0.0 or _is_upright(scene):
         return None
     # By twos, so that each texel is a mean of four.
     fine = np.full((2 * TEXELS, 2 * TEXELS), scene.floor, dtype=np.float32)
@@ -55,6 +58,14 @@ def heights(scene: DraftScene) -> Heights | None:
     matrix[[0, 1], [0, 1]] = 1 / extent
     matrix[:2, 3] = -low / extent
     return Heights(np.stack(blurred, axis=-1), matrix)
+
+
+def _is_upright(scene: DraftScene) -> bool:
+    """Whether items are in an upright plane: each would darken all that is below it."""
+    around = scene.boxes[scene.is_item]
+    width, depth, height = around[:, 1].max(axis=0) - around[:, 0].min(axis=0)
+    tallest = (around[:, 1, 2] - around[:, 0, 2]).max()
+    return bool(UPRIGHT * depth < min(width, height) and height > 1.5 * tallest)
 
 
 def _blurred(grid: Singles, deviations: Floats) -> Singles:

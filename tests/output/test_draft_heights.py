@@ -48,3 +48,13 @@ def test_without_items_there_are_none() -> None:
     tube = node("tube", box(1, 1, 1), 0, shows="hyperedge")
     shown = scene([tube], [matte("#ffffff")])
     assert heights(draft_scene(shown, Normalization.of(shown))) is None
+
+
+def test_what_stands_one_above_another_darkens_nothing() -> None:
+    items = [
+        node(f"{x} {z}", box(1, 0.5, 1), 0, (2.0 * x, 0.0, 2.0 * z))
+        for x in range(4)
+        for z in range(4)
+    ]
+    shown = scene(items, [matte("#ffffff")])
+    assert heights(draft_scene(shown, Normalization.of(shown))) is None
