@@ -10,7 +10,7 @@ import click
 
 from app.output.effort import Effort
 from app.output.media import Compression, Motion, Parts, Quality
-from app.program.model import Routing
+from app.program.model import Bundles, PlacementMode, Routing
 
 Command = Callable[..., None]
 Decorator = Callable[[Command], Command]
@@ -26,8 +26,20 @@ def _with_layout_wishes(command: Command) -> Command:
     """Hands over what is asked of the layout in one piece."""
 
     @functools.wraps(command)
-    def run(*, routing: str | None, clearance: float | None, **others: Any) -> None:
-        asked = (("routing", routing), ("clearance", clearance))
+    def run(
+        *,
+        routing: str | None,
+        placement: str | None,
+        bundles: str | None,
+        clearance: float | None,
+        **others: Any,
+    ) -> None:
+        asked = (
+            ("routing", routing),
+            ("placement", placement),
+            ("bundles", bundles),
+            ("clearance", clearance),
+        )
         command(layout=tuple(each for each in asked if each[1] is not None), **others)
 
     return run
@@ -85,6 +97,16 @@ of_pictures = _group(
 )
 
 of_layout = _group(
+    click.option(
+        "--placement",
+        type=click.Choice(get_args(PlacementMode)),
+        help="How items are placed, whatever FILE says.",
+    ),
+    click.option(
+        "--bundles",
+        type=click.Choice(get_args(Bundles)),
+        help="Whether the bits of a bus are one tube, whatever FILE says.",
+    ),
     click.option(
         "--routing",
         type=click.Choice(get_args(Routing)),

@@ -11,6 +11,7 @@ import numpy as np
 from app.arrays import Floats, Indices
 from app.hyperedges.clearance.certificate import certify
 from app.hyperedges.flat import route_flat
+from app.hyperedges.orthogonal.route import route_in_layers
 from app.hyperedges.pinches import find_pinches
 from app.hyperedges.previous import Previous
 from app.hyperedges.route import route
@@ -91,6 +92,9 @@ def lay_out(
         curves = wishes.curves or _usual_curves(program)
         routing = route_flat(flat, curves=curves, fidelity=wishes.fidelity)
         return Layout(program, flat, routing, hues)
+    if placement.layers is not None and (wishes.curves or _usual_curves(program)) == "steiner":
+        routing = route_in_layers(placement.layers, placement.attachment_starts, placement.radii)
+        return Layout(program, placement, routing, hues)
     allowance = Allowance(spent)
 
     def report(share: float) -> None:

@@ -20,6 +20,8 @@ PICTURES = (
     ("yosys/up3down5", "yosys", 1024, 768),
     ("shapes", "tubeloom", 800, 600),
 )
+LAYERS = ("up3down5-layers", "yosys/up3down5", 1024, 640)
+"""A netlist as a schematic: the picture's name, the example, width and height."""
 
 
 FINAL_SAMPLES = 64
@@ -34,11 +36,20 @@ def main() -> None:
     _keep("id3-clause-2.svg", drawn, RenderOptions(SceneFormat.SVG))
     for name, source, width, height in PICTURES:
         options = RenderOptions(SceneFormat.PNG, 2 * width, 2 * height, source=source)
-        answer = render((ROOT / "examples" / f"{name}.json").read_bytes(), options, Settings())
-        assert isinstance(answer, Answer)
-        picture = Image.open(io.BytesIO(answer.body))
-        target = ROOT / "docs" / "pictures" / f"{Path(name).name}.png"
-        picture.resize((width, height), Image.Resampling.LANCZOS).save(target, optimize=True)
+        _halve(Path(name).name, name, options)
+    name, example, width, height = LAYERS
+    layers = (("placement", "layers"),)
+    options = RenderOptions(SceneFormat.PNG, 2 * width, 2 * height, source="yosys", wishes=layers)
+    _halve(name, example, options)
+
+
+def _halve(name: str, example: str, options: RenderOptions) -> None:
+    answer = render((ROOT / "examples" / f"{example}.json").read_bytes(), options, Settings())
+    assert isinstance(answer, Answer)
+    picture = Image.open(io.BytesIO(answer.body))
+    target = ROOT / "docs" / "pictures" / f"{name}.png"
+    size = options.width // 2, options.height // 2
+    picture.resize(size, Image.Resampling.LANCZOS).save(target, optimize=True)
 
 
 def _keep(name: str, document: bytes, options: RenderOptions) -> None:

@@ -11,7 +11,7 @@ from pydantic_core import PydanticCustomError, core_schema
 from app.answers import LayoutWishes
 from app.formats.registry import FORMATS
 from app.output.media import Compression, Motion, Parts, Quality, SceneFormat
-from app.program.model import Clearance, Routing
+from app.program.model import Bundles, Clearance, PlacementMode, Routing
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +61,12 @@ class LaidOutQuery(PostedQuery):
     routing: Routing | None = Field(
         None, description="As `layout.routing` of a document, before which it goes."
     )
+    placement: PlacementMode | None = Field(
+        None, description="As `layout.placement` of a document, before which it goes."
+    )
+    bundles: Bundles | None = Field(
+        None, description="As `layout.bundles` of a document, before which it goes."
+    )
     clearance: Clearance | Literal["none"] | None = Field(
         None,
         description="As `layout.clearance` of a document, before which it goes; `none`: its null.",
@@ -70,8 +76,12 @@ class LaidOutQuery(PostedQuery):
     def wishes(self) -> LayoutWishes:
         """What is asked, by the document's keys."""
         asked: list[tuple[str, float | str | None]] = []
-        if self.routing is not None:
-            asked.append(("routing", self.routing))
+        modes = (
+            ("routing", self.routing),
+            ("placement", self.placement),
+            ("bundles", self.bundles),
+        )
+        asked.extend(mode for mode in modes if mode[1] is not None)
         if self.clearance is not None:
             asked.append(("clearance", None if self.clearance == "none" else self.clearance))
         return tuple(asked)

@@ -13,10 +13,12 @@ from typing import TYPE_CHECKING, TypeAlias
 from app.errors import UnknownName
 
 if TYPE_CHECKING:
-    from app.program.model import Program
+    from app.program.model import Layout, Program
     from app.settings import Settings
 
-Reader: TypeAlias = "Callable[[bytes, Settings], Program]"
+Reader: TypeAlias = "Callable[[bytes, Settings, Layout], Program]"
+"""Reads a document that is to be laid out so, as far as it does not say so itself."""
+
 Writer: TypeAlias = "Callable[[Program], bytes]"
 
 
@@ -38,7 +40,7 @@ class Format:
         return self.writer is not None
 
 
-def _read_program(data: bytes, settings: Settings) -> Program:
+def _read_program(data: bytes, settings: Settings, _layout: Layout) -> Program:
     from app.program.reading import read_program
 
     return read_program(data, settings)
@@ -50,13 +52,13 @@ def _write_program(program: Program) -> bytes:
     return tubeloom.write(program)
 
 
-def _read_yosys(data: bytes, settings: Settings) -> Program:
+def _read_yosys(data: bytes, settings: Settings, layout: Layout) -> Program:
     from app.formats import yosys
 
-    return yosys.read(data, settings)
+    return yosys.read(data, settings, layout)
 
 
-def _read_hif(data: bytes, settings: Settings) -> Program:
+def _read_hif(data: bytes, settings: Settings, _layout: Layout) -> Program:
     from app.formats import hif
 
     return hif.read(data, settings)
@@ -114,11 +116,12 @@ def read(
     """
     if name not in FORMATS:
         raise UnknownName("format", name, tuple(FORMATS))
-    program = FORMATS[name].reader(data, settings)
-    if not wishes:
-        return program
     from app.program.model import Layout
 
+    wished = Layout.model_validate(dict(wishes))
+    program = FORMATS[name].reader(data, settings, wished)
+    if not wishes:
+        return program
     layout = Layout.model_validate(program.layout.model_dump() | dict(wishes))
     return program.model_copy(update={"layout": layout})
 

@@ -15,35 +15,34 @@ from app.formats.cell_kinds import kind_of, plain_type
 from app.formats.names import distinct, short
 from app.formats.netlist import Bit, Cell, Module, Netlist, bit_names
 from app.formats.netlist_layout import Block, Pin, Side, arrange
+from app.formats.netlist_ports import NOTES, is_clock, net_names, side_of
+from app.formats.schematic_program import schematic_of
 from app.program.checking import check
 from app.program.collection import collection_paused
-from app.program.model import Attachment, Hyperedge, Program
+from app.program.model import Attachment, Hyperedge, Layout, Program
 from app.program.parsing import parse
 from app.program.reading import validate
 from app.settings import Settings
 
 Net = Sequence[tuple[Block, Pin]]
 
-GIVING_PORTS = ("Y", "Q", "O", "OUT", "CO", "X")
-"""Ports that most likely give, where a netlist does not say."""
 
-CLOCK_PORTS = ("CLK", "CK", "CLOCK")
+def read(data: bytes, settings: Settings, layout: Layout | None = None) -> Program:
+    """The program that shows a netlist, laid out as ``layout`` wishes.
 
-NOTES = ("$scopeinfo",)
-"""Types of cells that carry remarks about the source and join nothing."""
-
-
-def read(data: bytes, settings: Settings) -> Program:
-    """The program that shows a netlist.
-
-    Raises `UnreadableDocument`, `InvalidDocument`, `InconsistentDocument` and `DocumentTooLarge`,
-    all with pointers into the netlist.
+    In layers it is a schematic (`app.formats.schematic`), whose items have no positions. Raises
+    `UnreadableDocument`, `InvalidDocument`, `InconsistentDocument` and `DocumentTooLarge`, all with
+    pointers into the netlist.
     """
     with collection_paused():
         netlist = validate(Netlist, parse(data, settings))
         name = netlist.top()
         _refuse_large(name, netlist.modules[name], settings)
-        program = _program(name, netlist.modules[name])
+        _refuse_empty(name, netlist.modules[name])
+        if layout is not None and layout.placement == "layers":
+            program = schematic_of(name, netlist.modules[name], layout)
+        else:
+            program = _program(name, netlist.modules[name])
         check(program, settings)
     return program
 
@@ -67,12 +66,15 @@ def _refuse_large(name: str, module: Module, settings: Settings) -> None:
         raise DocumentTooLarge(faults)
 
 
-def _program(name: str, module: Module) -> Program:
-    blocks = [*_ports(module), *_cells(module)]
-    if not blocks:
+def _refuse_empty(name: str, module: Module) -> None:
+    if not module.ports and all(cell.type in NOTES for cell in module.cells.values()):
         raise InconsistentDocument(
             [Fault(pointer("modules", name), "There is nothing to show: no ports and no cells.")]
         )
+
+
+def _program(name: str, module: Module) -> Program:
+    blocks = [*_ports(module), *_cells(module)]
     blocks += _constants(blocks)
     nets: dict[Bit, list[tuple[Block, Pin]]] = defaultdict(list)
     for block in blocks:
@@ -88,7 +90,7 @@ def _program(name: str, module: Module) -> Program:
 
 
 def _hyperedges(module: Module, nets: Mapping[Bit, Net]) -> Iterator[Hyperedge]:
-    names = _net_names(module)
+    names = net_names(module)
     for bit, pins in nets.items():
         constant = isinstance(bit, str)
         yield Hyperedge(
@@ -102,10 +104,7 @@ def _hyperedges(module: Module, nets: Mapping[Bit, Net]) -> Iterator[Hyperedge]:
 
 
 def _is_clocked(block: Block, pin: Pin) -> bool:
-    if pin.side is not Side.LEFT:
-        return False
-    port = pin.port.upper()
-    return port in CLOCK_PORTS or (port == "C" and block.kind == "flipflop")
+    return pin.side is Side.LEFT and is_clock(block.kind, pin.port)
 
 
 def _ports(module: Module) -> Iterator[Block]:
@@ -147,7 +146,7 @@ def _pins(cell: Cell) -> Iterator[Pin]:
     # A port that is called "A[0]" itself has its own name first, and port "A" yields.
     taken = set(cell.connections)
     for port, bits in cell.connections.items():
-        side = _side(cell, port)
+        side = side_of(cell, port)
         for name, bit in zip(bit_names(port, len(bits)), bits, strict=True):
             full = name
             while full != port and full in taken:
@@ -162,21 +161,3 @@ def _constants(blocks: Iterable[Block]) -> list[Block]:
         Block(f"constant:{value}", "constant", value, (Pin(value, value, value, Side.RIGHT),))
         for value in sorted(values)
     ]
-
-
-def _side(cell: Cell, port: str) -> Side:
-    direction = cell.port_directions.get(port)
-    if direction is None:
-        return Side.RIGHT if port.upper() in GIVING_PORTS else Side.LEFT
-    return {"input": Side.LEFT, "output": Side.RIGHT, "inout": Side.BACK}[direction]
-
-
-def _net_names(module: Module) -> dict[Bit, str]:
-    """The best name of each net: a visible one before a hidden one, then the shortest."""
-    best: dict[Bit, tuple[bool, int, str]] = {}
-    for name, net in module.netnames.items():
-        names = bit_names(name, len(net.bits), net.offset, net.upto)
-        for full, bit in zip(names, net.bits, strict=True):
-            rank = (bool(net.hide_name), len(full), full)
-            best[bit] = min(best.get(bit, rank), rank)
-    return {bit: rank[2] for bit, rank in best.items()}

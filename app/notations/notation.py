@@ -31,6 +31,10 @@ class ItemStyle(Part):
     )
     gap: Length = Field(0.25, description="Between children.")
     padding: Length = Field(0.14, description="Between a tray's wall and its contents.")
+    stores: bool = Field(
+        False, description="Whether it holds a state: in layers, cycles begin at it."
+    )
+    is_last: bool = Field(False, description="Whether it stands in the last of the layers.")
 
 
 class HyperedgeStyle(Part):
@@ -41,6 +45,9 @@ class HyperedgeStyle(Part):
     translucency: Share | None = None
     color: Color | None = Field(None, description="Left out: each its own, from the palette.")
     radius: Length = 0.08
+    weight: float = Field(
+        1.0, ge=0.01, le=100, description="How short it should be in layers, over others."
+    )
 
 
 class Notation(Part):

@@ -41,7 +41,7 @@ def attached(program: Program, placed: Placement, standing: Standing | None = No
     if len(new):
         rows = rows_of(starts, new)
         chosen = [program.hyperedges[number] for number in new]
-        positions[rows], directions[rows], owners[rows] = _ends(program, chosen, placed)
+        positions[rows], directions[rows], owners[rows] = ends_at_points(program, chosen, placed)
     whole = replace(
         placed,
         attachment_positions=positions,
@@ -75,7 +75,7 @@ def _followed(
     )
 
 
-def _ends(
+def ends_at_points(
     program: Program, hyperedges: Sequence[Hyperedge], placed: Placement
 ) -> tuple[Floats, Floats, Indices]:
     """Positions (a, 3), unit directions (a, 3) and items (a,) of the ends of hyperedges.
@@ -103,4 +103,8 @@ def _ends(
         a, b, c = center
         positions.append((a + x, b + y, c + z))
         directions.append(turned(rotation, direction))
-    return np.array(positions)[used], np.array(directions)[used], owners[used]
+    return (
+        np.array(positions).reshape(-1, 3)[used],
+        np.array(directions).reshape(-1, 3)[used],
+        owners[used],
+    )

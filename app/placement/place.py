@@ -12,6 +12,7 @@ from app.placement.attaching import attached
 from app.placement.contents import measure
 from app.placement.family import Family, family
 from app.placement.labels import label_place
+from app.placement.layers.place import in_layers
 from app.placement.placement import LabelPlace, Placement
 from app.placement.rooms import TOUCHING
 from app.placement.sized import Place, Sized
@@ -41,6 +42,8 @@ def place(program: Program, notation: Notation, standing: Standing | None = None
         for hyperedge in program.hyperedges
     ]
     placed = replace(placed, radii=np.array(radii, dtype=np.float64))
+    if program.layout.placement == "layers" and standing is None and program.layout.dimensions == 3:
+        return in_layers(program, notation, placed)
     return attached(program, placed, standing)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.arrays import Floats, Indices
 from app.grouped import rows_of, starts_of
+from app.placement.layers.plan import Layers
 from app.solids.solid import Size, Solid, Text
 
 
@@ -35,7 +36,7 @@ class Placement:
     ``parents`` (n,) are the numbers of the items that contain the items, -1 for roots; none where
     that is not known. ``offsets`` (n, 3), from the parent's origin to the solid's centre, and
     ``turns`` (n, 4) are within the parent; they are there where items may be placed anew after an
-    edit.
+    edit. ``layers`` are there where the curves are to be constructed in channels between them.
     """
 
     centers: Floats
@@ -51,6 +52,7 @@ class Placement:
     parents: Indices = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     offsets: Floats = field(default_factory=lambda: np.empty((0, 3)))
     turns: Floats = field(default_factory=lambda: np.empty((0, 4)))
+    layers: Layers | None = None
 
     def of_hyperedges(self, hyperedges: Indices) -> Placement:
         """All items, and the attachments of ``hyperedges`` (k,) alone, in that order."""

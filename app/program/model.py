@@ -13,6 +13,8 @@ Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 MaterialName = Literal["plastic", "metal", "glass", "wood", "stone", "matte", "plain"]
 Routing = Literal["planes", "elastic", "auto"]
 Flow = Literal["in", "out", "both"]
+PlacementMode = Literal["rows", "layers"]
+Bundles = Literal["none", "thick"]
 Clearance = Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)]
 Finish = Literal["shiny", "satin", "matte"]
 
@@ -154,6 +156,17 @@ class Layout(Part):
         description="How 'steiner' curves keep clear of each other. 'elastic': they are relaxed as "
         "elastic chains that push each other apart. 'planes': each hyperedge has a height of its "
         "own. 'auto': elastic where that is proven clear, else whichever has fewer faults.",
+    )
+    placement: PlacementMode = Field(
+        "rows",
+        description="How items without positions are placed. 'rows': in rows within what contains "
+        "them. 'layers': upright, in columns from left to right as the hyperedges flow, with "
+        "curves that run level and turn in the channels between the columns.",
+    )
+    bundles: Bundles | None = Field(
+        None,
+        description="'thick': the bits of a bus of a netlist are one hyperedge. Left out: 'thick' "
+        "in layers, else 'none'.",
     )
     constraints: Many[Constraint] = ()
 

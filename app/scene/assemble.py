@@ -70,7 +70,7 @@ def assemble(
         name=program.name or "",
         nodes=tuple(nodes),
         materials=tuple(materials),
-        lights=three_point(axes),
+        lights=three_point(axes, is_upright=program.layout.placement == "layers"),
         camera=frame(farthest, view, aspect, ground),
         background=None if background is None else _triple(linear_of(background)),
         bounds=bounds,

@@ -15,6 +15,9 @@ from app.scene.scene import Camera
 Farthest: TypeAlias = Callable[[Floats], Floats]
 """Answers which point (3,) of something lies farthest along a direction (3,)."""
 
+BEFORE_LAYERS = (0.12, -1.0, 0.2)
+"""Direction from layers to the camera: a little of right sides and tops of items is seen."""
+
 NEAREST = 0.01
 """Of the scene's size: how near the camera comes to it, even where a wide angle would let it."""
 
@@ -56,11 +59,16 @@ def axes_from(direction: tuple[float, float, float]) -> Axes:
 def view_of(program: Program) -> View:
     """The view that a program is seen in: its own, but a flat drawing is seen from straight above.
 
-    Its projection and direction then say nothing; margin and the rest stay as they are.
+    Its projection and direction then say nothing; margin and the rest stay as they are. Layers are
+    seen from before them, without perspective, unless the program says from where.
     """
-    if program.layout.dimensions == 3:
-        return program.view
-    return program.view.model_copy(update={"projection": "orthographic", "from_": (0.0, 0.0, 1.0)})
+    view = program.view
+    if program.layout.dimensions == 2:
+        return view.model_copy(update={"projection": "orthographic", "from_": (0.0, 0.0, 1.0)})
+    usual = View()
+    if program.layout.placement != "layers" or view.from_ != usual.from_:
+        return view
+    return view.model_copy(update={"projection": "orthographic", "from_": BEFORE_LAYERS})
 
 
 def frame(

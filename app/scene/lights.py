@@ -17,12 +17,20 @@ more than they show."""
 KEY, FILL, RIM = 2.35, 1.25, 0.75
 
 
-def three_point(axes: Axes) -> tuple[Light, ...]:
+def three_point(axes: Axes, *, is_upright: bool = False) -> tuple[Light, ...]:
     """Suns for a camera with ``axes``; the first alone casts shadows.
 
-    Key and rim shine from above even on a scene that is seen from below.
+    Key and rim shine from above even on a scene that is seen from below. The key shines along the
+    reader's eyes where the scene ``is_upright``: from above, what stands out of its front would
+    throw streaks down it.
     """
     right, up, back = axes.right, axes.up, axes.back
+    if is_upright:
+        return (
+            _sun("key", -0.25 * right + 0.35 * up + back, (1.0, 0.98, 0.95), KEY, True),
+            _sun("fill", 0.7 * right + 0.15 * up + 0.9 * back, (0.95, 0.97, 1.0), FILL, False),
+            _sun("rim", 0.4 * right + 0.8 * up - 0.5 * back, (1.0, 1.0, 1.0), RIM, False),
+        )
     return (
         _sun("key", _lifted(-0.6 * right + 0.7 * up + 0.6 * back), (1.0, 0.98, 0.95), KEY, True),
         _sun("fill", 0.7 * right + 0.15 * up + 0.9 * back, (0.95, 0.97, 1.0), FILL, False),

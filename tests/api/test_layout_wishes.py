@@ -33,6 +33,19 @@ def test_a_netlist_is_routed_as_is_asked_for(client: httpx.Client) -> None:
     assert curves[0] == curves[2] != curves[1]
 
 
+def test_a_netlist_is_placed_in_layers_as_is_asked_for(client: httpx.Client) -> None:
+    netlist = NETLIST.with_name("up3down5.json").read_bytes()
+
+    def ask(call: str, **query: str) -> httpx.Response:
+        params = {"from": "yosys", "placement": "layers", **query}
+        return client.post(f"/v1/{call}", params=params, content=netlist).raise_for_status()
+
+    layers, bits = (ask("layout", **query).json() for query in ({}, {"bundles": "none"}))
+    assert layers["clearance"]["certified"]
+    assert len(layers["hyperedges"]) == 20 < len(bits["hyperedges"])
+    assert ask("render", format="png").content.startswith(b"\x89PNG")
+
+
 def test_what_is_asked_goes_before_the_document(client: httpx.Client) -> None:
     document = SMALL | {"layout": {"clearance": 0.2}}
     answers = [
@@ -44,7 +57,13 @@ def test_what_is_asked_goes_before_the_document(client: httpx.Client) -> None:
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("clearance", "-1"), ("clearance", "null"), ("clearance", "nan"), ("routing", "best")],
+    [
+        ("clearance", "-1"),
+        ("clearance", "null"),
+        ("clearance", "nan"),
+        ("routing", "best"),
+        ("placement", "heap"),
+    ],
 )
 def test_what_cannot_be_asked_is_named(client: httpx.Client, name: str, value: str) -> None:
     response = layout(client, **{name: value})

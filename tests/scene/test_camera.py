@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.arrays import Floats
-from app.program.model import View
-from app.scene.camera import SHORTEST, Farthest, axes_from, frame
+from app.program.model import Program, View
+from app.scene.camera import BEFORE_LAYERS, SHORTEST, Farthest, axes_from, frame, view_of
 from app.scene.scene import Camera
 from tests.scene.hand_built import seen_by
 
@@ -171,3 +171,13 @@ def test_far_from_the_origin_the_picture_is_the_same() -> None:
     far_away = look(corners((1e6, -1e6, 1e6), (1, 2, 3)))
     moved = np.subtract(far_away.position, (1e6, -1e6, 1e6))
     assert moved == pytest.approx(near_home.position, abs=1e-7)
+
+
+def test_layers_are_seen_from_before_unless_the_program_says_from_where() -> None:
+    layers = {"items": [], "layout": {"placement": "layers"}}
+    usual, own = (
+        view_of(Program.model_validate(layers | more))
+        for more in ({}, {"view": {"from": (1.0, -1.0, 1.0)}})
+    )
+    assert (usual.projection, usual.from_) == ("orthographic", BEFORE_LAYERS)
+    assert (own.projection, own.from_) == ("perspective", (1.0, -1.0, 1.0))

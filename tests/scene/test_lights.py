@@ -71,3 +71,11 @@ def test_what_faces_the_camera_on_the_right_is_not_black() -> None:
     axes = axes_from(USUAL)
     aside = (axes.right + axes.back)[None] / np.sqrt(2)
     assert brightness(three_point(axes), aside)[0] > 0.3
+
+
+def test_before_what_is_upright_the_key_shines_along_the_eyes() -> None:
+    """So what stands out of the front throws its shadow behind itself, and not down the front."""
+    axes = axes_from((0.12, -1.0, 0.2))
+    usual, upright = (three_point(axes, is_upright=flag)[0] for flag in (False, True))
+    assert upright.casts_shadows
+    assert toward(upright) @ axes.back > 0.9 > toward(usual) @ axes.back

@@ -1389,6 +1389,12 @@ export interface components {
              * @default 0.08
              */
             radius?: number;
+            /**
+             * Weight
+             * @description How short it should be in layers, over others.
+             * @default 1
+             */
+            weight?: number;
         };
         /**
          * Hypergraph
@@ -1593,6 +1599,18 @@ export interface components {
              * @default 0.14
              */
             padding?: number;
+            /**
+             * Stores
+             * @description Whether it holds a state: in layers, cycles begin at it.
+             * @default false
+             */
+            stores?: boolean;
+            /**
+             * Is Last
+             * @description Whether it stands in the last of the layers.
+             * @default false
+             */
+            is_last?: boolean;
         };
         /**
          * JobLinks
@@ -1744,6 +1762,19 @@ export interface components {
              * @enum {string}
              */
             routing?: "planes" | "elastic" | "auto";
+            /**
+             * Placement
+             * @description How items without positions are placed. 'rows': in rows within what contains them. 'layers': upright, in columns from left to right as the hyperedges flow, with curves that run level and turn in the channels between the columns.
+             * @default rows
+             * @enum {string}
+             */
+            placement?: "rows" | "layers";
+            /**
+             * Bundles
+             * @description 'thick': the bits of a bus of a netlist are one hyperedge. Left out: 'thick' in layers, else 'none'.
+             * @default null
+             */
+            bundles?: ("none" | "thick") | null;
             /**
              * Constraints
              * @default []
@@ -1966,7 +1997,9 @@ export interface components {
              *       "arrangement": "rows",
              *       "caption": "front",
              *       "gap": 0.25,
-             *       "padding": 0.14
+             *       "padding": 0.14,
+             *       "stores": false,
+             *       "is_last": false
              *     }
              */
             other_items?: components["schemas"]["ItemStyle"];
@@ -1977,7 +2010,8 @@ export interface components {
             /**
              * @default {
              *       "material": "plastic",
-             *       "radius": 0.08
+             *       "radius": 0.08,
+             *       "weight": 1
              *     }
              */
             other_hyperedges?: components["schemas"]["HyperedgeStyle"];
@@ -2361,6 +2395,8 @@ export interface components {
              *       "patch_rule": "paper",
              *       "clearance": 0.05,
              *       "routing": "auto",
+             *       "placement": "rows",
+             *       "bundles": null,
              *       "constraints": []
              *     }
              */
@@ -2997,6 +3033,10 @@ export interface operations {
                 from?: ("tubeloom" | "yosys" | "hif") | null;
                 /** @description As `layout.routing` of a document, before which it goes. */
                 routing?: ("planes" | "elastic" | "auto") | null;
+                /** @description As `layout.placement` of a document, before which it goes. */
+                placement?: ("rows" | "layers") | null;
+                /** @description As `layout.bundles` of a document, before which it goes. */
+                bundles?: ("none" | "thick") | null;
                 /** @description As `layout.clearance` of a document, before which it goes; `none`: its null. */
                 clearance?: number | "none" | null;
                 /** @description Format of the answer. It wins over `Accept`; without both, `glb`. */
@@ -3364,6 +3404,10 @@ export interface operations {
                 from?: ("tubeloom" | "yosys" | "hif") | null;
                 /** @description As `layout.routing` of a document, before which it goes. */
                 routing?: ("planes" | "elastic" | "auto") | null;
+                /** @description As `layout.placement` of a document, before which it goes. */
+                placement?: ("rows" | "layers") | null;
+                /** @description As `layout.bundles` of a document, before which it goes. */
+                bundles?: ("none" | "thick") | null;
                 /** @description As `layout.clearance` of a document, before which it goes; `none`: its null. */
                 clearance?: number | "none" | null;
                 /** @description Add the paper's pair of Bezier patches to each segment. */
@@ -3965,6 +4009,10 @@ export interface operations {
                 from?: ("tubeloom" | "yosys" | "hif") | null;
                 /** @description As `layout.routing` of a document, before which it goes. */
                 routing?: ("planes" | "elastic" | "auto") | null;
+                /** @description As `layout.placement` of a document, before which it goes. */
+                placement?: ("rows" | "layers") | null;
+                /** @description As `layout.bundles` of a document, before which it goes. */
+                bundles?: ("none" | "thick") | null;
                 /** @description As `layout.clearance` of a document, before which it goes; `none`: its null. */
                 clearance?: number | "none" | null;
                 /** @description Format of the answer. It wins over `Accept`; without both, `glb`. */

@@ -1,0 +1,1 @@
+"""Directed programs in layers: ranks, order, rows and channels. Arrays in, arrays out."""
