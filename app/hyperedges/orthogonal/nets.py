@@ -47,11 +47,15 @@ class Channel:
 
 @dataclass(frozen=True, slots=True)
 class Net:
-    """A net's channels, and for its source and each lane's other end: channel and place there."""
+    """A net's channels, and for its source and each lane's other end: channel and place there.
+
+    ``turns`` are, of lanes at which it goes on in another line, the x, z and x where it turns.
+    """
 
     channels: tuple[Channel, ...]
     source: tuple[int, int]
     beyond: dict[tuple[int, int], tuple[int, int]]
+    turns: dict[int, Point]
     port_xs: Floats
 
 
@@ -63,6 +67,10 @@ def nets_of(plan: Plan) -> list[Net]:
         terminals.object_nets[terminals.objects] == LANE, LANE, terminals.objects
     ).tolist()
     ports = terminals.ports.tolist()
+    turns: dict[int, Point] = {
+        lane: (right, -v, left)
+        for lane, (right, v, left) in zip(plan.turning.tolist(), plan.turns.tolist(), strict=True)
+    }
     order = np.argsort(terminals.group_nets, kind="stable")
     starts = np.searchsorted(terminals.group_nets[order], np.arange(len(plan.sources) + 1))
     found: list[Net] = []
@@ -83,7 +91,7 @@ def nets_of(plan: Plan) -> list[Net]:
                     other = at_lane.setdefault(lanes[t], here)
                     beyond[here], beyond[other] = other, here
             channels.append(_channel(plan, group, tuple(ends)))
-        found.append(Net(tuple(channels), begin, beyond, plan.port_xs))
+        found.append(Net(tuple(channels), begin, beyond, turns, plan.port_xs))
     return found
 
 

@@ -64,8 +64,35 @@ def _skeleton(net: Net) -> Skeleton:
         channel, place, start = waiting.pop()
         crossing = _Crossing(found, net.channels[channel], place, net.port_xs)
         for number, vertex in crossing.run(start):
-            waiting.append((*net.beyond[(channel, number)], vertex))
+            here, there = (channel, number), net.beyond[(channel, number)]
+            ends = [net.channels[which].terminals[at] for which, at in (here, there)]
+            turn = net.turns.get(ends[0].lane)
+            after = vertex if turn is None else _turn(found, vertex, ends[0], ends[1], turn)
+            waiting.append((*there, after))
     return found
+
+
+def _turn(found: Skeleton, start: int, here: Terminal, there: Terminal, turn: Point) -> int:
+    """Run from one line of columns to the next, or back; the vertex at which it goes on."""
+    right, height, left = turn
+    upper, lower = (here, there) if here.side > 0 else (there, here)
+    down, level = (0.0, 0.0, -1.0), (1.0, 0.0, 0.0)
+    back = (-1.0, 0.0, 0.0)
+    way: list[tuple[Point, Point]] = [
+        ((right - CORNER, 0.0, upper.height), level),
+        ((right, 0.0, upper.height - CORNER), down),
+        ((right, 0.0, height + CORNER), down),
+        ((right - CORNER, 0.0, height), back),
+        ((left + CORNER, 0.0, height), back),
+        ((left, 0.0, height - CORNER), down),
+        ((left, 0.0, lower.height + CORNER), down),
+        ((left + CORNER, 0.0, lower.height), level),
+    ]
+    if upper is not here:
+        way = [(point, (-x, -y, -z)) for point, (x, y, z) in reversed(way)]
+    for point, heading in way:
+        start = found.extend(start, point, heading)
+    return start
 
 
 class _Crossing:

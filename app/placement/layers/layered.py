@@ -6,6 +6,7 @@ import numpy as np
 
 from app.arrays import Floats, Indices
 from app.placement.layers.channels import across, depths
+from app.placement.layers.folding import cuts_of, folded
 from app.placement.layers.graph import Graph
 from app.placement.layers.heights import heights
 from app.placement.layers.order import order, spaces_of
@@ -32,12 +33,24 @@ DODGE, TRUNK, LENGTH = 3.0, 0.25, 0.01
 def layered(graph: Graph, clearance: float) -> Plan:
     """Where the items of a connected graph stand, and where its nets run between them.
 
-    Tubes have ``clearance`` between them.
+    Tubes have ``clearance`` between them. What would be a long line is folded into some.
     """
-    between = terminals(graph, ranks(graph))
+    found = ranks(graph)
+    plan = _planned(graph, found, clearance)
+    cuts = cuts_of(graph, plan)
+    if not len(cuts):
+        return plan
+    # A rank of lanes alone before each rank that begins a new line.
+    moved = found + np.searchsorted(cuts, found, "right")
+    return folded(graph, _planned(graph, moved, clearance), cuts + np.arange(len(cuts)), clearance)
+
+
+def _planned(graph: Graph, found: Indices, clearance: float) -> Plan:
+    """The plan in one line of ranks (n,)."""
+    between = terminals(graph, found)
     best: tuple[float, Indices, Indices, Indices] | None = None
-    for found in _orders(between):
-        rows = heights(graph, between, found)
+    for objects in _orders(between):
+        rows = heights(graph, between, objects)
         at = (rows[between.objects] + between.rows).astype(np.float64)
         chosen, dodges, crossings = tracks(
             between.channel_starts, between.group_starts, between.group_middles, at
@@ -50,16 +63,17 @@ def layered(graph: Graph, clearance: float) -> Plan:
     assert best is not None, "there is an order"  # noqa: S101
     _, rows, chosen, dodges = best
     xs, trunks, ends = across(graph, between, chosen, dodges, clearance)
-    down = ROW * rows.astype(np.float64)
     return Plan(
         terminals=between,
-        items=np.stack([xs, down[: between.items]], axis=1),
-        object_heights=down,
+        items=np.stack([xs, ROW * rows[: between.items]], axis=1),
+        terminal_heights=ROW * (rows[between.objects] + between.rows).astype(np.float64),
         trunks=trunks,
         depths=depths(graph, between, dodges, clearance),
         channel_ends=ends,
         sources=graph.sources,
         port_xs=xs[graph.port_items] + graph.port_xs,
+        turning=np.zeros(0, dtype=np.int64),
+        turns=np.zeros((0, 3)),
     )
 
 

@@ -33,10 +33,10 @@ def in_parts(graph: Graph, clearance: float) -> tuple[Floats, Layers]:
         part = graph.part(items, here)
         plan = layered(part, clearance)
         tops = plan.items[:, 1] - part.extents[:, 2]
-        top = min(float(tops.min()), float(plan.object_heights.min()) - float(part.radii.max()))
+        top = min(float(tops.min()), float(plan.terminal_heights.min()) - float(part.radii.max()))
         plan = plan.moved(0.0, bottom - top)
         lowest = float((plan.items[:, 1] + part.extents[:, 3]).max())
-        bottom = max(lowest, float(plan.object_heights.max())) + BETWEEN
+        bottom = max(lowest, float(plan.terminal_heights.max())) + BETWEEN
         origins[items] = plan.items
         plans.append(plan)
         numbers.append(here)

@@ -59,3 +59,16 @@ def test_parts_stand_below_each_other_and_what_joins_nothing_at_the_bottom() -> 
     assert [nets.tolist() for nets in layers.nets] == [[1, 2], [0]]
     assert origins[[2, 3, 4], 1].max() < origins[[0, 1], 1].min()
     assert origins[5, 1] > origins[:5, 1].max()
+
+
+def test_a_long_chain_is_folded_into_lines_that_are_read_from_left_to_right() -> None:
+    links = [[number, number + 1] for number in range(39)]
+    plan = layered(graph_of(40, links), 0.05)
+    x, v = plan.items.T
+    assert np.ptp(x) < 4.0 * np.ptp(v)
+    ends = np.flatnonzero(np.diff(x) < 0.0)
+    assert len(ends) == len(plan.turning) >= 2
+    # Only from line to line it goes back, and down.
+    assert (np.diff(v)[ends] > 1.0).all()
+    assert (plan.turns[:, 1] > v[ends]).all()
+    assert (plan.turns[:, 1] < v[ends + 1]).all()

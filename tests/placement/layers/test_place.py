@@ -16,6 +16,7 @@ from app.settings import Settings
 from benchmarks.random_netlists import random_netlist
 
 LAYERS = {"placement": "layers"}
+SAID = {"layout": LAYERS}
 
 
 def laid(document: dict[str, Any]) -> Layout:
@@ -39,6 +40,20 @@ def assert_clear(layout: Layout) -> None:
 def test_random_netlists_are_clear(seed: int) -> None:
     layout = netlist(random_netlist(seed, 12 + 6 * seed))
     assert layout.placement.layers is not None
+    assert_clear(layout)
+
+
+def test_long_chains_with_nets_along_and_back_are_clear_where_they_are_folded() -> None:
+    names = [f"n{number}" for number in range(60)]
+    edges = [
+        edge(f"e{number}", (names[number], "out"), (names[number + 1], "in"))
+        for number in range(59)
+    ]
+    edges.append(edge("all", (names[0], "out"), *((name, "in") for name in names[1:])))
+    edges.append(edge("back", (names[59], "out"), (names[0], "in")))
+    layout = laid({"items": [{"id": name} for name in names], "hyperedges": edges, **SAID})
+    assert layout.placement.layers is not None
+    assert len(layout.placement.layers.plans[0].turning) >= 6
     assert_clear(layout)
 
 
