@@ -1,0 +1,1 @@
+"""Places by stress: what belongs together stands together. Arrays in, arrays out."""
