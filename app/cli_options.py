@@ -98,11 +98,6 @@ of_pictures = _group(
 
 of_layout = _group(
     click.option(
-        "--placement",
-        type=click.Choice(get_args(PlacementMode)),
-        help="How items are placed, whatever FILE says.",
-    ),
-    click.option(
         "--bundles",
         type=click.Choice(get_args(Bundles)),
         help="Whether the bits of a bus are one tube, whatever FILE says.",
@@ -111,6 +106,11 @@ of_layout = _group(
         "--routing",
         type=click.Choice(get_args(Routing)),
         help="How hyperedges keep clear of each other, whatever FILE says.",
+    ),
+    click.option(
+        "--placement",
+        type=click.Choice(get_args(PlacementMode)),
+        help="Where items without positions go, whatever FILE says.",
     ),
     click.option(
         "--clearance",

@@ -83,7 +83,12 @@ def lay_out(
     progress("placing items", 0.1)
     find_palette(program.style.palette)  # now, and not when all has been laid out
     standing = None if previous is None else previous.standing
-    placement = place(program, load_notation(program.notation), standing)
+    placement = place(
+        program,
+        load_notation(program.notation),
+        standing,
+        progress=lambda: progress("placing items", 0.1),
+    )
     progress("laying out hyperedges", 0.2)
     wishes = program.layout
     hues = _hues(program, previous)
@@ -178,4 +183,5 @@ def _wishes(program: Program) -> tuple[object, ...]:
         wishes.closest,
         wishes.clearance,
         wishes.routing,
+        wishes.placement,
     )

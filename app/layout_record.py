@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 import zlib
 from dataclasses import replace
-from typing import Any
+from typing import Any, get_args
 from zipfile import BadZipFile
 
 import numpy as np
@@ -16,6 +16,7 @@ import numpy as np
 from app.hyperedges.routing import Routing
 from app.layout import Layout, shown
 from app.notations.loader import load_notation
+from app.placement.modes import Mode
 from app.placement.place import place
 from app.placement.standing import Standing
 from app.program.model import Program
@@ -24,6 +25,7 @@ FORM = 2
 """Of the bytes; another form cannot be read, and the program is laid out anew."""
 
 PLACES = ("centers", "rotations", "sizes", "offsets", "turns")
+MODES: dict[str, Mode] = {mode: mode for mode in get_args(Mode)}
 ENDS = ("attachment_positions", "attachment_directions")
 CURVES = (
     "control_points",
@@ -42,6 +44,7 @@ def write_layout(layout: Layout) -> bytes:
     file = io.BytesIO()
     arrays = {name: getattr(layout.placement, name) for name in PLACES + ENDS}
     arrays |= {f"routing_{name}": getattr(layout.routing, name) for name in CURVES}
+    arrays["placement_mode"] = np.array(layout.placement.mode)
     arrays["is_elastic"] = np.array(layout.routing.is_elastic)
     if not layout.complete:
         arrays["stopped"] = np.array(True)
@@ -53,7 +56,8 @@ def read_layout(program: Program, data: bytes) -> Layout | None:
     """The layout that was written, or ``None`` where another version wrote it, or it is broken."""
     try:
         arrays = _arrays(data)
-        standing = Standing(program, *(arrays[name] for name in PLACES))
+        mode = MODES[str(arrays.get("placement_mode", "rows"))]
+        standing = Standing(program, *(arrays[name] for name in PLACES), mode=mode)
         curves: dict[str, Any] = {name: arrays[f"routing_{name}"] for name in CURVES}
         routing = Routing(**curves, is_elastic=bool(arrays.get("is_elastic", False)))
         hues, form = arrays["hues"], arrays["form"]

@@ -163,7 +163,7 @@ def _coarseness(layout: Layout, routing: Routing, aspect: float, height: int | N
     finest = TUBE_TOLERANCE * float(layout.routing.radii.min(initial=1.0))
     if height is None:
         return _Coarseness(finest, 0.0)
-    view = view_of(layout.program)
+    view = view_of(layout.program, layout.placement.mode)
     detail = Detail.of(layout.placement, layout.routing, view, aspect, height)
     tubes = detail.tubes(routing, finest) if len(routing.radii) else finest
     return _Coarseness(tubes, detail.items())

@@ -29,7 +29,7 @@ from app.readability.drawing import drawing_of
 from app.readability.projection import Projection, directions
 from app.readability.shape import Shapes, shapes_of
 from app.readability.view import Readability, fewest_crossings, readability
-from app.scene.camera import axes_from
+from app.scene.camera import Axes, axes_from, axes_of, view_of
 from app.settings import Settings
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -94,7 +94,7 @@ def measure(name: str, way: Literal["planes", "elastic"]) -> Row:
     return Row(
         f"{name.rpartition('/')[2]}, {way}",
         seconds,
-        readability(drawing, _projection(program.view.from_)),
+        readability(drawing, _projection_of(axes_of(view_of(program, placement.mode)))),
         readability(drawing, views[fewest_crossings(drawing, views)]),
         shapes_of(routing, placement),
         proof.certified,
@@ -142,7 +142,10 @@ def _cells(seen: Readability) -> tuple[str, str, str, str]:
 
 
 def _projection(direction: tuple[float, float, float]) -> Projection:
-    axes = axes_from(direction)
+    return _projection_of(axes_from(direction))
+
+
+def _projection_of(axes: Axes) -> Projection:
     return Projection(np.stack([axes.right, axes.up, axes.back]))
 
 

@@ -74,6 +74,9 @@ def route(
         kinds = ROUTERS[routing] if can_relax(placement, clearance) else ROUTERS["planes"]
         if routing == "auto" and not np.isnan(join_heights).all():
             kinds = ROUTERS["planes"]
+        if not placement.stands and kinds == ROUTERS["auto"]:
+            # There is no ground to have heights over.
+            kinds = ROUTERS["elastic"]
         routers = [kind(placement, clearance, join_heights) for kind in kinds]
         try:
             return reroute(

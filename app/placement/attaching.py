@@ -9,6 +9,7 @@ import numpy as np
 
 from app.arrays import Flags, Floats, Indices
 from app.grouped import rows_of, starts_of
+from app.placement.all_round import all_round
 from app.placement.placement import Placement
 from app.placement.points import points_of
 from app.placement.previous_attachments import PreviousAttachments, previous_attachments
@@ -54,6 +55,10 @@ def attached(program: Program, placed: Placement, standing: Standing | None = No
     held = np.repeat(stays, counts)
     if before is not None:
         whole, held = _followed(whole, before, held)
+    if not placed.stands:
+        whole = all_round(program, whole, held)
+        named = [end.point is None for each in program.hyperedges for end in each.attachments]
+        held = held | np.array(named, dtype=np.bool_)
     return separated(spread(program, whole, held), program.layout.clearance or 0.0, held)
 
 

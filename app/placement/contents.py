@@ -8,16 +8,18 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from app.notations.notation import ItemStyle
+from app.placement.blocks import blocks_of, line_ups_of
+from app.placement.by_stress import by_stress
+from app.placement.contents_by_stress import Stress, Within, beside_joined, contain_by_stress
 from app.placement.enclosing import Contents, enclose, grow
 from app.placement.family import Family
-from app.placement.helix import Bulk, leaning, wind
 from app.placement.rooms import Rooms, edge_of_fixed
 from app.placement.rows import Arrangement, arrange
-from app.placement.sized import Place, Sized, alone
+from app.placement.sized import Place, Sized, alone, own_turn
 from app.placement.standing import ALIKE, Standing, recall
-from app.placement.still import Block, Ground, Groups, hold, stand, stays
-from app.placement.turning import UNTURNED, then
-from app.program.model import Helix, LineUp, Program
+from app.placement.still import Ground, Groups, hold, stand, stays
+from app.placement.turning import UNTURNED
+from app.program.model import Helix, Program
 from app.solids.solid import Box, Tray
 
 ROOT_GAP = 0.6
@@ -31,14 +33,17 @@ def measure(
     family: Family,
     styles: Sequence[ItemStyle],
     standing: Standing | None = None,
+    stress: Stress | None = None,
 ) -> tuple[list[Sized], dict[int, Place]]:
     """All items with their solids, and the places of free roots in the world.
 
-    What is ``standing`` stays where it is, as far as there is room for what has changed.
+    What is ``standing`` stays where it is, as far as there is room for what has changed. Where
+    ``stress`` is given, places are found by that: on the ground those of the contents of trays too,
+    elsewhere those of the roots alone.
 
     Raises `InconsistentDocument` and `DocumentTooLarge` for trees of solids that come to no body.
     """
-    line_ups = _line_ups(program, family)
+    line_ups = line_ups_of(program, family)
     sized = alone(program, family, styles)
     if standing is not None:
         recall(sized, program, family, standing)
@@ -49,19 +54,23 @@ def measure(
             style = styles[number]
             lines = line_ups.get(number, [])
             how = (lines, style.gap, style.arrangement)
+            by = None if stress is None or style.arrangement != "rows" else stress.within(number)
             if stays(sized, number, children):
-                contents = _contain_more(sized, number, children, *how, rooms)
+                contents = _contain_more(sized, number, children, *how, rooms, by)
                 grow(sized, number, children, contents)
             elif sized[number].is_alike:
                 # None of its contents stands, but it does, and is as large as it was at least.
-                grow(sized, number, children, contain(sized, children, *how))
+                grow(sized, number, children, contain(sized, children, *how, by))
             else:
-                enclose(sized[number], contain(sized, children, *how))
+                enclose(sized[number], contain(sized, children, *how, by))
     lines = line_ups.get(-1, [])
+    if stress is not None and stress.mode != "ground":
+        return sized, _off_ground(sized, family.roots, lines, stress)
+    by = None if stress is None else stress.within(-1)
     if stays(sized, -1, family.roots):
-        roots = _contain_more(sized, -1, family.roots, lines, ROOT_GAP, "rows", rooms)
+        roots = _contain_more(sized, -1, family.roots, lines, ROOT_GAP, "rows", rooms, by)
     else:
-        roots = contain(sized, family.roots, lines, ROOT_GAP, "rows")
+        roots = contain(sized, family.roots, lines, ROOT_GAP, "rows", by)
     return sized, roots.places
 
 
@@ -71,10 +80,13 @@ def contain(
     line_ups: Groups,
     gap: float,
     arrangement: Arrangement,
+    stress: Within | None = None,
 ) -> Contents:
     """Arrange the free ones of ``children``; those with positions stay."""
     free = [child for child in children if sized[child].is_free]
     _make_alike([sized[child] for child in free])
+    if stress is not None and free:
+        return contain_by_stress(sized, children, blocks_of(sized, free, line_ups, gap), stress)
     places, width, depth = _arrange_free(sized, free, line_ups, gap, arrangement)
     fixed = [sized[child] for child in children if not sized[child].is_free]
     around = np.array([-width / 2, -depth / 2, width / 2, depth / 2])
@@ -100,7 +112,7 @@ def _arrange_free(
 ) -> tuple[dict[int, Place], float, float]:
     """Places about the centre, width and depth; what lines up is arranged first, then as one."""
     taken = {child: sized[child].footprint for child in free}
-    blocks = _blocks(sized, free, line_ups, gap)
+    blocks = blocks_of(sized, free, line_ups, gap)
     outer = arrange([block.size for block in blocks], gap, arrangement)
     places: dict[int, Place] = {}
     for block, center, row in zip(blocks, outer.centers, outer.depths, strict=True):
@@ -120,6 +132,7 @@ def _contain_more(
     gap: float,
     arrangement: Arrangement,
     rooms: Rooms,
+    stress: Within | None = None,
 ) -> Contents:
     """Find room for those of ``children`` that are new, beside what stands."""
     fixed = any(not sized[child].is_free for child in children)
@@ -131,7 +144,9 @@ def _contain_more(
         standing, near = hold(sized, children, ground)
         free = [child for child in children if child not in standing]
         _make_alike([sized[child] for child in free], [sized[child] for child in standing])
-        blocks = _blocks(sized, free, line_ups, gap)
+        blocks = blocks_of(sized, free, line_ups, gap)
+        if stress is not None:
+            near = beside_joined(blocks, standing, stress) | near
         found, around = stand(standing, near, blocks, ground)
         for child, (x, y) in found.items():
             aside = sized[child].footprint.center
@@ -144,6 +159,27 @@ def _contain_more(
     return Contents(places, around, fixed)
 
 
+def _off_ground(
+    sized: Sequence[Sized], roots: Sequence[int], line_ups: Groups, stress: Stress
+) -> dict[int, Place]:
+    """Places of free roots on a sheet or in space, where each is lifted to its height."""
+    free = [child for child in roots if sized[child].is_free]
+    kept = [sized[child] for child in free if sized[child].is_kept]
+    _make_alike([sized[child] for child in free if not sized[child].is_kept], kept)
+    for line_up, members in line_ups:
+        for member in members if isinstance(line_up, Helix) else ():
+            sized[member].turn = own_turn(sized[member].item)
+    blocks = blocks_of(sized, free, line_ups, ROOT_GAP)
+    within = stress.within(-1)
+    joined = [] if within is None else within.joined
+    found = by_stress(
+        sized, roots, blocks, joined, stress.joined.thickness, stress.mode, stress.progress
+    )
+    for child in free:
+        sized[child].lift = found[child][2]
+    return {child: found[child][:2] for child in free}
+
+
 def _is_settled(sized: Sequence[Sized], number: int, children: Sequence[int]) -> bool:
     """Whether children stand as they stood, in a parent that is as it was, with its label."""
     if number >= 0:
@@ -151,43 +187,6 @@ def _is_settled(sized: Sequence[Sized], number: int, children: Sequence[int]) ->
         if stood is None or not (stood.alike and stood.labelled):
             return False
     return all(sized[child].is_as_before for child in children)
-
-
-def _blocks(
-    sized: Sequence[Sized], free: Sequence[int], line_ups: Groups, gap: float
-) -> list[Block]:
-    """What stands together, in order: each of ``free`` alone, or the line that it is in."""
-    taken = {child: sized[child].footprint for child in free}
-    line_of = {child: (line_up, members) for line_up, members in line_ups for child in members}
-    blocks: list[Block] = []
-    for child in free:
-        if child not in line_of:
-            blocks.append(Block({child: (0.0, 0.0)}, taken[child].size))
-            continue
-        line_up, members = line_of[child]
-        if child != members[0]:
-            continue
-        if isinstance(line_up, Helix):
-            around, centers = _wind([sized[member] for member in members], line_up, gap)
-            size = (around, around)
-        else:
-            inner = arrange([taken[member].size for member in members], gap, line_up.type)
-            size, centers = (inner.width, inner.depth), list(inner.centers)
-        blocks.append(Block(dict(zip(members, centers, strict=True)), size))
-    return blocks
-
-
-def _wind(members: Sequence[Sized], helix: Helix, gap: float) -> tuple[float, list[Place]]:
-    """Turn and lift ``members``; the width of all, and where the middles of footprints are."""
-    lean = leaning(helix)
-    bulks = [Bulk.of(*member.whole, then(lean, member.turn)) for member in members]
-    wound = wind(helix, bulks, gap)
-    places: list[Place] = []
-    for member, (x, y, z), turn in zip(members, wound.centers, wound.turns, strict=True):
-        aside = member.footprint.center
-        places.append((x - aside[0], y - aside[1]))
-        member.turn, member.lift = then(turn, member.turn), z
-    return 2 * wound.reach, places
 
 
 def _deepen(child: Sized, depth: float) -> None:
@@ -214,14 +213,3 @@ def _make_alike(siblings: Sequence[Sized], standing: Sequence[Sized] = ()) -> No
         for sibling in group:
             if id(sibling) not in remaining:
                 sibling.resize((max(sibling.size[0], widest), sibling.size[1], tallest))
-
-
-def _line_ups(
-    program: Program, family: Family
-) -> dict[int, list[tuple[LineUp | Helix, list[int]]]]:
-    numbers = {item.id: number for number, item in enumerate(program.items)}
-    found: dict[int, list[tuple[LineUp | Helix, list[int]]]] = defaultdict(list)
-    for line_up in program.layout.constraints:
-        members = [numbers[name] for name in line_up.items]
-        found[family.parents[members[0]]].append((line_up, members))
-    return found

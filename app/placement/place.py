@@ -9,14 +9,20 @@ import numpy as np
 
 from app.notations.notation import Notation
 from app.placement.attaching import attached
+from app.placement.choosing import mode_of
 from app.placement.contents import measure
+from app.placement.contents_by_stress import Stress
 from app.placement.family import Family, family
+from app.placement.joined import joined
 from app.placement.labels import label_place
 from app.placement.layers.place import in_layers
+from app.placement.modes import Mode
 from app.placement.placement import LabelPlace, Placement
 from app.placement.rooms import TOUCHING
 from app.placement.sized import Place, Sized
 from app.placement.standing import Standing
+from app.placement.stress.arrange import silent
+from app.placement.stress.pairs import Progress
 from app.placement.turning import UNTURNED, Quaternion, Vector, moved, reach, then, turned
 from app.placement.untouched import untouched
 from app.program.model import Program
@@ -24,34 +30,53 @@ from app.solids.extents import middle_of
 from app.solids.solid import Tray
 
 
-def place(program: Program, notation: Notation, standing: Standing | None = None) -> Placement:
+def place(
+    program: Program,
+    notation: Notation,
+    standing: Standing | None = None,
+    progress: Progress = silent,
+) -> Placement:
     """The places of all items and attachments. Raises what `app.solids.csg.make_body` does.
 
-    Items with positions stay exactly there; the others stand in rows within their parents, or on
-    the plane z = 0. After an edit, what is ``standing`` stays there to the last bit, but for what
-    the edit concerns: new and changed items, and what holds them, which grows around them. What
-    would have to grow over others moves to a free place, with all that is in it.
+    Items with positions stay exactly there; the others go where the document's placement puts them:
+    in rows within their parents or on the plane z = 0, or beside what they are joined to. After an
+    edit, what is ``standing`` stays there to the last bit, but for what the edit concerns: new and
+    changed items, and what holds them, which grows around them. What would have to grow over others
+    moves to a free place, with all that is in it. Where items are placed in another mode than
+    before, all are placed anew. ``progress`` may raise to end the work.
     """
+    mode = mode_of(program, standing)
+    if standing is not None and standing.mode != mode:
+        standing = None
     rest = None if standing is None else untouched(program, standing)
     if rest is None:
-        placed = _placed(program, notation, standing)
+        placed = _placed(program, notation, standing, mode, progress)
     else:
-        placed = rest.beside(_placed(rest.others, notation, standing))
+        placed = rest.beside(_placed(rest.others, notation, standing, mode, progress))
     radii = [
         hyperedge.radius or notation.hyperedge_style(hyperedge.kind).radius
         for hyperedge in program.hyperedges
     ]
     placed = replace(placed, radii=np.array(radii, dtype=np.float64))
-    if program.layout.placement == "layers" and standing is None and program.layout.dimensions == 3:
+    if mode == "layers" and standing is None:
         return in_layers(program, notation, placed)
     return attached(program, placed, standing)
 
 
-def _placed(program: Program, notation: Notation, standing: Standing | None) -> Placement:
+def _placed(
+    program: Program,
+    notation: Notation,
+    standing: Standing | None,
+    mode: Mode,
+    progress: Progress,
+) -> Placement:
     """The items alone, without attachments."""
     relations = family(program)
+    stress = None
+    if mode not in {"rows", "layers"}:
+        stress = Stress(mode, joined(program, relations, notation), progress)
     styles = [notation.item_style(item.kind) for item in program.items]
-    sized, roots = measure(program, relations, styles, standing)
+    sized, roots = measure(program, relations, styles, standing, stress)
     centers, turns, offsets = _in_world(sized, relations, roots)
     nothing = np.empty((0, 3))
     return Placement(
@@ -68,6 +93,7 @@ def _placed(program: Program, notation: Notation, standing: Standing | None) -> 
         parents=np.array(relations.parents, dtype=np.int64),
         offsets=np.array(offsets, dtype=np.float64).reshape(-1, 3),
         turns=np.array([each.turn for each in sized], dtype=np.float64).reshape(-1, 4),
+        mode=mode,
     )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from app.arrays import Floats, Indices
 from app.grouped import rows_of, starts_of
 from app.placement.layers.plan import Layers
+from app.placement.modes import Mode
 from app.solids.solid import Size, Solid, Text
 
 
@@ -37,6 +38,7 @@ class Placement:
     that is not known. ``offsets`` (n, 3), from the parent's origin to the solid's centre, and
     ``turns`` (n, 4) are within the parent; they are there where items may be placed anew after an
     edit. ``layers`` are there where the curves are to be constructed in channels between them.
+    ``mode`` is by what items without positions were placed.
     """
 
     centers: Floats
@@ -53,6 +55,12 @@ class Placement:
     offsets: Floats = field(default_factory=lambda: np.empty((0, 3)))
     turns: Floats = field(default_factory=lambda: np.empty((0, 4)))
     layers: Layers | None = None
+    mode: Mode = "rows"
+
+    @property
+    def stands(self) -> bool:
+        """Whether items stand on something: there is a ground then, and what leaves goes up."""
+        return self.mode in {"rows", "ground"}
 
     def of_hyperedges(self, hyperedges: Indices) -> Placement:
         """All items, and the attachments of ``hyperedges`` (k,) alone, in that order."""

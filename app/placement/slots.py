@@ -62,6 +62,24 @@ def default_slots(
             assert_never(solid)
 
 
+def all_round_slots(solid: Solid, size: Size, count: int, pitch: float, inset: float) -> Slots:
+    """Slots on all sides of an item that floats, but for its front, where its label is.
+
+    They are at least ``pitch`` apart, in no order. What is neither a block nor a cylinder has them
+    where it has them on the ground.
+    """
+    most = OFFERED * count + 16
+    top, sides = default_slots(solid, size, count, pitch, inset)
+    if isinstance(solid, Box | Cylinder):
+        below = top.copy()
+        below[:, [2, 5]] *= -1.0
+        top = np.concatenate([top, below])
+    if isinstance(solid, Box):
+        sides = _sides(size, most, pitch)
+        sides = sides[sides[:, 4] >= 0.0]
+    return np.concatenate([top, sides])
+
+
 def point_slots(position: Vector, direction: Vector, size: Size, count: int, pitch: float) -> Slots:
     """Slots around a named point, in the plane that its direction is square to, nearest first.
 

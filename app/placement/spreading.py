@@ -73,12 +73,12 @@ def spread(program: Program, placement: Placement, held: NDArray[np.bool_]) -> P
         ]
         offers = [top for top, _ in tiers] + [np.concatenate(both) for both in tiers]
         for offer in offers:
-            places, normals = _free(offer, taken, thickness)
+            places, normals = free_slots(offer, taken, thickness)
             if len(places) >= len(new):
                 break
         if len(places) == 0:
             continue
-        chosen = _assigned(wanted.of_rows(new, item, places, local), places)
+        chosen = assigned(wanted.of_rows(new, item, places, local), places)
         positions[new] = places[chosen] @ frame.T + placement.centers[item]
         directions[new] = normals[chosen] @ frame.T
     return replace(placement, attachment_positions=positions, attachment_directions=directions)
@@ -139,7 +139,7 @@ class _Wanted:
         return np.asarray(anchor + 0.5 * reach * (self.towards[rows] @ frame) + sideways)
 
 
-def _free(slots: Slots, taken: Floats, apart: float) -> tuple[Floats, Floats]:
+def free_slots(slots: Slots, taken: Floats, apart: float) -> tuple[Floats, Floats]:
     """Places and directions (k, 3) of the slots that are ``apart`` from those ``taken`` (t, 3)."""
     places, normals = slots[:, :3], slots[:, 3:]
     if len(taken) == 0 or len(places) == 0:
@@ -148,11 +148,15 @@ def _free(slots: Slots, taken: Floats, apart: float) -> tuple[Floats, Floats]:
     return places[free], normals[free]
 
 
-def _assigned(wanted: Floats, places: Floats) -> Sequence[int] | Indices:
-    """The slot of each end ``wanted`` (r, 3); the last one for those beyond their number."""
+def assigned(wanted: Floats, places: Floats, most: int | None = None) -> Sequence[int] | Indices:
+    """The slot of each end ``wanted`` (r, 3); the last one for those beyond their number.
+
+    Of the ``places`` (k, 3) the first so many at ``most`` are chosen among; left out, twice as many
+    as are wanted.
+    """
     count = len(wanted)
     # The best ones, and some to choose among.
-    offered = places[: max(2 * count, count + 8)]
+    offered = places[: most or max(2 * count, count + 8)]
     if count > len(offered) or count > MOST_ASSIGNED:
         order = np.argsort(np.arctan2(wanted[:, 1], wanted[:, 0]), kind="stable")
         chosen = np.empty(count, dtype=np.int64)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from app.arrays import Floats
 from app.placement.family import Family
 from app.placement.fitting import LABEL_MARGIN
+from app.placement.modes import Mode
 from app.placement.placement import Placement
 from app.placement.sized import Sized, Stood
 from app.program.model import Helix, Item, LineUp, Program
@@ -24,7 +25,8 @@ class Standing:
 
     ``centers`` (n, 3) and ``rotations`` (n, 4) are in the world, ``offsets`` (n, 3) and ``turns``
     (n, 4) within the parent, ``sizes`` (n, 3) in the items' own axes; as in `Placement`. ``whole``
-    is all that was placed, where it is at hand, and not flattened.
+    is all that was placed, where it is at hand, and not flattened. ``mode`` is that of the
+    placement.
     """
 
     program: Program
@@ -33,6 +35,7 @@ class Standing:
     sizes: Floats
     offsets: Floats
     turns: Floats
+    mode: Mode = field(default="rows", kw_only=True)
     whole: Placement | None = field(default=None, kw_only=True)
 
     @classmethod
@@ -45,6 +48,7 @@ class Standing:
             placement.sizes,
             placement.offsets,
             placement.turns,
+            mode=placement.mode,
             whole=None if program.layout.dimensions == 2 else placement,
         )
 

@@ -176,5 +176,5 @@ def _layout_faults(program: Program) -> Iterator[Fault]:
 
 
 def _view_faults(program: Program) -> Iterator[Fault]:
-    if not any(program.view.from_):
+    if program.view.from_ is not None and not any(program.view.from_):
         yield Fault(pointer("view", "from"), "A direction must not be zero.")

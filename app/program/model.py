@@ -13,7 +13,7 @@ Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 MaterialName = Literal["plastic", "metal", "glass", "wood", "stone", "matte", "plain"]
 Routing = Literal["planes", "elastic", "auto"]
 Flow = Literal["in", "out", "both"]
-PlacementMode = Literal["rows", "layers"]
+PlacementMode = Literal["rows", "layers", "ground", "sheet", "space", "auto"]
 Bundles = Literal["none", "thick"]
 Clearance = Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)]
 Finish = Literal["shiny", "satin", "matte"]
@@ -159,9 +159,11 @@ class Layout(Part):
     )
     placement: PlacementMode = Field(
         "rows",
-        description="How items without positions are placed. 'rows': in rows within what contains "
-        "them. 'layers': upright, in columns from left to right as the hyperedges flow, with "
-        "curves that run level and turn in the channels between the columns.",
+        description="Where items without positions go. 'rows': in rows, by what contains them. "
+        "'layers': upright, in columns from left to right as the hyperedges flow, with curves that "
+        "run level and turn in the channels between the columns. 'ground', 'sheet', 'space': what "
+        "hyperedges join stands together, on the ground, on an upright sheet that faces the "
+        "reader, or in space. 'auto': as suits the program.",
     )
     bundles: Bundles | None = Field(
         None,
@@ -195,8 +197,11 @@ class View(Part):
     """Where the scene is seen from."""
 
     projection: Literal["perspective", "orthographic"] = "perspective"
-    from_: Vector = Field(
-        (0.2, -1.0, 1.0), alias="from", description="Direction from the scene to the camera."
+    from_: Vector | None = Field(
+        None,
+        alias="from",
+        description="Direction from the scene to the camera; left out, what suits the placement: "
+        "from above on what stands on the ground, from the front on a sheet.",
     )
     field_of_view: float = Field(
         30.0, ge=1, le=120, allow_inf_nan=False, description="Vertical, in degrees."

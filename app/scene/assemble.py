@@ -11,7 +11,7 @@ from app.notations.notation import Notation
 from app.placement.placement import Placement
 from app.program.model import Program
 from app.scene.boxes import boxes
-from app.scene.camera import Farthest, axes_from, frame, view_of
+from app.scene.camera import Farthest, axes_of, frame, view_of
 from app.scene.color import linear_of
 from app.scene.curve_reach import CurveReach
 from app.scene.ground import disc_below, ground_color
@@ -60,12 +60,12 @@ def assemble(
     farthest = farther_of(reach.farthest if reach.nodes else None, of_crowd)
     bounds = bounds_by(farthest)
     ground = None
-    if program.style.ground and farthest is not None:
+    if program.style.ground and placement.stands and farthest is not None:
         node, box = _ground(bounds, background, materials)
         ground = Reach.of([node], box[None]).farthest
         nodes.append(node)
-    view = view_of(program)
-    axes = axes_from(view.from_)
+    view = view_of(program, placement.mode)
+    axes = axes_of(view)
     return Scene(
         name=program.name or "",
         nodes=tuple(nodes),

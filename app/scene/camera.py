@@ -2,21 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import TypeAlias
 
 import numpy as np
 
 from app.arrays import Floats
+from app.placement.modes import Mode
 from app.program.model import Program, View
 from app.scene.scene import Camera
 
+VIEWS: Mapping[Mode, tuple[float, float, float]] = MappingProxyType(
+    {
+        "rows": (0.2, -1.0, 1.0),
+        "layers": (0.12, -1.0, 0.2),
+        "ground": (0.2, -1.0, 1.0),
+        "sheet": (0.1, -1.0, 0.25),
+        "space": (0.2, -1.0, 0.6),
+    }
+)
+"""Directions from the scene to the camera, where the document gives none."""
+
 Farthest: TypeAlias = Callable[[Floats], Floats]
 """Answers which point (3,) of something lies farthest along a direction (3,)."""
-
-BEFORE_LAYERS = (0.12, -1.0, 0.2)
-"""Direction from layers to the camera: a little of right sides and tops of items is seen."""
 
 NEAREST = 0.01
 """Of the scene's size: how near the camera comes to it, even where a wide angle would let it."""
@@ -47,7 +57,7 @@ def axes_from(direction: tuple[float, float, float]) -> Axes:
     """
     reached = float(np.abs(direction).max())
     if reached == 0.0:
-        return axes_from(View().from_)
+        return axes_from(VIEWS["rows"])
     back = np.array(direction) / reached
     back /= np.linalg.norm(back)
     steep = float(np.hypot(back[0], back[1])) < 1e-6
@@ -56,19 +66,26 @@ def axes_from(direction: tuple[float, float, float]) -> Axes:
     return Axes(right, np.cross(back, right), back)
 
 
-def view_of(program: Program) -> View:
-    """The view that a program is seen in: its own, but a flat drawing is seen from straight above.
+def axes_of(view: View) -> Axes:
+    """Axes of the camera of a view; of one that does not say from where, the usual ones."""
+    return axes_from(view.from_ or VIEWS["rows"])
 
-    Its projection and direction then say nothing; margin and the rest stay as they are. Layers are
-    seen from before them, without perspective, unless the program says from where.
+
+def view_of(program: Program, mode: Mode) -> View:
+    """The view that a program is seen in, which says from where.
+
+    It is its own, or that of its placement's ``mode``; but a flat drawing is seen from straight
+    above. Its projection and direction then say nothing; margin and the rest stay as they are.
+    Layers are seen without perspective, unless the program says from where.
     """
-    view = program.view
-    if program.layout.dimensions == 2:
-        return view.model_copy(update={"projection": "orthographic", "from_": (0.0, 0.0, 1.0)})
-    usual = View()
-    if program.layout.placement != "layers" or view.from_ != usual.from_:
-        return view
-    return view.model_copy(update={"projection": "orthographic", "from_": BEFORE_LAYERS})
+    if program.layout.dimensions == 3:
+        if program.view.from_ is not None:
+            return program.view
+        usual: dict[str, object] = {"from_": VIEWS[mode]}
+        if mode == "layers":
+            usual["projection"] = "orthographic"
+        return program.view.model_copy(update=usual)
+    return program.view.model_copy(update={"projection": "orthographic", "from_": (0.0, 0.0, 1.0)})
 
 
 def frame(
@@ -79,7 +96,7 @@ def frame(
     What ``farthest`` knows (``None`` where there is nothing) keeps the margin and touches it on
     both sides, left and right or above and below. The ``ground`` is seen too, but not framed.
     """
-    axes = axes_from(view.from_)
+    axes = axes_of(view)
     scene = _Scene.seen(farthest or _ball(np.zeros(3)), axes)
     if scene.size < POINT:
         scene = _Scene.seen(_ball(scene.farthest(axes.back)), axes)

@@ -11,7 +11,7 @@ from app.hyperedges.routing import Routing
 from app.placement.placement import Placement
 from app.placement.turning import matrices
 from app.program.model import View
-from app.scene.camera import axes_from, frame
+from app.scene.camera import axes_of, frame
 from app.scene.curve_reach import CurveReach, curve_boxes
 from app.scene.reach import farther_of
 from app.scene.scene import Camera
@@ -53,7 +53,7 @@ class Detail:
         of_tubes = CurveReach.of(routing).farthest if len(routing.radii) else None
         farthest = farther_of(of_tubes, of_items if len(items) else None)
         camera = frame(farthest, view, aspect)
-        return cls(items, camera, axes_from(view.from_).back, height)
+        return cls(items, camera, axes_of(view).back, height)
 
     def tubes(self, routing: Routing, finest: float) -> Floats:
         """Of the tubes of each of h hyperedges that are seen, (h,), in document units.

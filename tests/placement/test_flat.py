@@ -83,6 +83,6 @@ def test_a_flat_drawing_is_seen_from_straight_above() -> None:
     items: list[dict[str, Any]] = [{"id": "a"}]
     wished = {"from": [1, 0, 0], "margin": 0.2}
     program = program_of({"items": items, "layout": {"dimensions": 2}, "view": wished})
-    view = view_of(program)
+    view = view_of(program, "rows")
     assert (view.projection, view.from_, view.margin) == ("orthographic", (0.0, 0.0, 1.0), 0.2)
-    assert view_of(program_of({"items": items, "view": wished})).from_ == (1, 0, 0)
+    assert view_of(program_of({"items": items, "view": wished}), "rows").from_ == (1, 0, 0)

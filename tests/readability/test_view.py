@@ -108,7 +108,6 @@ def test_items_that_are_letters_are_labels() -> None:
     text = {"id": "t", "label": "read me", "shape": {"type": "text"}, "position": [0, 0, 0]}
     roof = {"id": "r", "shape": {"type": "box", "size": [9, 9, 1]}, "position": [0, 0, 5]}
     shares = [
-        readability(drawn(items=items), ABOVE).free_labels
-        for items in ([text], [text, roof])
+        readability(drawn(items=items), ABOVE).free_labels for items in ([text], [text, roof])
     ]
     assert shares == [1.0, 0.0]

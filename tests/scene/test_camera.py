@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from app.arrays import Floats
 from app.program.model import Program, View
-from app.scene.camera import BEFORE_LAYERS, SHORTEST, Farthest, axes_from, frame, view_of
+from app.scene.camera import SHORTEST, VIEWS, Farthest, axes_from, axes_of, frame, view_of
 from app.scene.scene import Camera
 from tests.scene.hand_built import seen_by
 
@@ -111,7 +111,7 @@ def test_a_direction_almost_straight_down_still_has_z_up() -> None:
 
 
 def test_no_direction_is_the_usual_one() -> None:
-    assert axes_from((0.0, 0.0, 0.0)).back == pytest.approx(axes_from(View().from_).back)
+    assert axes_from((0.0, 0.0, 0.0)).back == pytest.approx(axes_of(View()).back)
 
 
 @pytest.mark.parametrize("projection", PROJECTIONS)
@@ -176,8 +176,8 @@ def test_far_from_the_origin_the_picture_is_the_same() -> None:
 def test_layers_are_seen_from_before_unless_the_program_says_from_where() -> None:
     layers = {"items": [], "layout": {"placement": "layers"}}
     usual, own = (
-        view_of(Program.model_validate(layers | more))
+        view_of(Program.model_validate(layers | more), "layers")
         for more in ({}, {"view": {"from": (1.0, -1.0, 1.0)}})
     )
-    assert (usual.projection, usual.from_) == ("orthographic", BEFORE_LAYERS)
+    assert (usual.projection, usual.from_) == ("orthographic", VIEWS["layers"])
     assert (own.projection, own.from_) == ("perspective", (1.0, -1.0, 1.0))

@@ -36,8 +36,8 @@ class Beads(NamedTuple):
     there is none; ``degrees`` (b,) count them. ``free`` (b,): 1 where a bead may move, 0 at
     attachments, at the beads next to these, which keep a tube's end straight, and where fixed.
     ``thickness`` (b,): the tube's radius. ``lows`` and ``highs`` (b,): the least and the largest
-    height. ``lifts`` (b,): how far each bead is drawn upwards in a step, times the rate of
-    straightening. ``spans`` (b,): the least distance from neighbours. ``ends`` (c, 2)
+    height. ``lifts`` (b, 3): how far each bead is drawn to where its arch rises in a step, times
+    the rate of straightening. ``spans`` (b,): the least distance from neighbours. ``ends`` (c, 2)
     are the beads at chains' ends.
     """
 
@@ -160,13 +160,14 @@ def lay_beads(
 
 
 def _lifts(chains: Chains, counts: Indices, pulls: Floats, size: int) -> Floats:
-    """How far beads are drawn upwards, (``size``,): those of each chain by its ``pulls`` (c,)."""
+    """How far beads are drawn, (``size``, 3): those of each chain by its ``pulls`` (c,)."""
     joins, nodes = chains.joins, chains.joins + len(chains.positions)
-    lifts = np.zeros(size)
+    lifts = np.zeros((size, 3))
+    drawn = pulls[:, None] * chains.ways[chains.owners]
     for side in range(2):
-        np.add.at(lifts, chains.ends[:, side], pulls / 3.0)
+        np.add.at(lifts, chains.ends[:, side], drawn / 3.0)
     lifts[joins:nodes] = 0.0
-    inner = np.repeat(pulls, counts - 1)
+    inner = np.repeat(drawn, counts - 1, axis=0)
     lifts[nodes : nodes + len(inner)] = inner
     return lifts
 

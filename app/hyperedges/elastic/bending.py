@@ -60,8 +60,7 @@ def straighten(
             beside[i] = min(np.sqrt(square) / 3.0, MOST_BESIDE * thickness[i])
     for i in moving:
         for axis in range(3):
-            steps[i, axis] = alpha * laps[i, axis]
-        steps[i, 2] += alpha * lifts[i]
+            steps[i, axis] = alpha * laps[i, axis] + alpha * lifts[i, axis]
         if i < joins:
             continue
         for axis in range(3):

@@ -16,9 +16,9 @@ class Chains(NamedTuple):
     each hyperedge begin, each numbered from 0.
 
     ``positions`` and unit, outward ``directions`` (a, 3) of attachments, document units. ``radii``
-    (h,) are the tubes'. ``hung`` (h,): whether all attachments
-    point upwards, so that the hyperedge is an arch. ``heights`` (h,): where its joins are held, NaN
-    where they are free. ``floors`` (h,): the least height of beads.
+    (h,) are the tubes'. ``hung`` (h,): whether the hyperedge is an arch, and ``ways`` (h, 3) where
+    it rises to, a unit vector: upwards from the ground, before or behind a sheet. ``heights`` (h,):
+    where its joins are held, NaN where they are free. ``floors`` (h,): the least height of beads.
     """
 
     ends: Indices
@@ -30,6 +30,7 @@ class Chains(NamedTuple):
     directions: Floats
     radii: Floats
     hung: Flags
+    ways: Floats
     heights: Floats
     floors: Floats
 

@@ -40,7 +40,12 @@ def elastic_router(placement: Placement, clearance: float, join_heights: Floats)
             curves,
             clearance,
         )
-        chains, joins = chains_of(placement, chosen, join_heights[chosen], _on_ground(obstacles))
+        chains, joins = chains_of(
+            placement,
+            chosen,
+            join_heights[chosen],
+            placement.stands and _on_ground(obstacles),
+        )
         made = relaxed(chains, joins, around, progress)
         # Sweeps that are made after mending add no faults.
         is_proven = made.faults is not None and made.faults.count == 0

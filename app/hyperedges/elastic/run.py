@@ -107,7 +107,7 @@ def higher(state: State, curvatures: Floats) -> State:
     owners = np.full(len(state.x), len(curvatures))
     count = int(state.beads.segment_starts[-1])
     owners[state.beads.segments[:count]] = state.beads.owners[:count, None]
-    lifted = state.beads._replace(lifts=state.beads.lifts * ratios[owners])
+    lifted = state.beads._replace(lifts=state.beads.lifts * ratios[owners, None])
     return replace(state, beads=lifted, curvatures=curvatures)
 
 

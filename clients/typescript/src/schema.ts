@@ -1764,11 +1764,11 @@ export interface components {
             routing?: "planes" | "elastic" | "auto";
             /**
              * Placement
-             * @description How items without positions are placed. 'rows': in rows within what contains them. 'layers': upright, in columns from left to right as the hyperedges flow, with curves that run level and turn in the channels between the columns.
+             * @description Where items without positions go. 'rows': in rows, by what contains them. 'layers': upright, in columns from left to right as the hyperedges flow, with curves that run level and turn in the channels between the columns. 'ground', 'sheet', 'space': what hyperedges join stands together, on the ground, on an upright sheet that faces the reader, or in space. 'auto': as suits the program.
              * @default rows
              * @enum {string}
              */
-            placement?: "rows" | "layers";
+            placement?: "rows" | "layers" | "ground" | "sheet" | "space" | "auto";
             /**
              * Bundles
              * @description 'thick': the bits of a bus of a netlist are one hyperedge. Left out: 'thick' in layers, else 'none'.
@@ -2415,11 +2415,7 @@ export interface components {
             /**
              * @default {
              *       "projection": "perspective",
-             *       "from": [
-             *         0.2,
-             *         -1,
-             *         1
-             *       ],
+             *       "from": null,
              *       "field_of_view": 30,
              *       "margin": 0.05,
              *       "stereo": null,
@@ -2895,18 +2891,14 @@ export interface components {
             projection?: "perspective" | "orthographic";
             /**
              * From
-             * @description Direction from the scene to the camera.
-             * @default [
-             *       0.2,
-             *       -1,
-             *       1
-             *     ]
+             * @description Direction from the scene to the camera; left out, what suits the placement: from above on what stands on the ground, from the front on a sheet.
+             * @default null
              */
             from?: [
                 number,
                 number,
                 number
-            ];
+            ] | null;
             /**
              * Field Of View
              * @description Vertical, in degrees.
@@ -3034,7 +3026,7 @@ export interface operations {
                 /** @description As `layout.routing` of a document, before which it goes. */
                 routing?: ("planes" | "elastic" | "auto") | null;
                 /** @description As `layout.placement` of a document, before which it goes. */
-                placement?: ("rows" | "layers") | null;
+                placement?: ("rows" | "layers" | "ground" | "sheet" | "space" | "auto") | null;
                 /** @description As `layout.bundles` of a document, before which it goes. */
                 bundles?: ("none" | "thick") | null;
                 /** @description As `layout.clearance` of a document, before which it goes; `none`: its null. */
@@ -3405,7 +3397,7 @@ export interface operations {
                 /** @description As `layout.routing` of a document, before which it goes. */
                 routing?: ("planes" | "elastic" | "auto") | null;
                 /** @description As `layout.placement` of a document, before which it goes. */
-                placement?: ("rows" | "layers") | null;
+                placement?: ("rows" | "layers" | "ground" | "sheet" | "space" | "auto") | null;
                 /** @description As `layout.bundles` of a document, before which it goes. */
                 bundles?: ("none" | "thick") | null;
                 /** @description As `layout.clearance` of a document, before which it goes; `none`: its null. */
@@ -4010,7 +4002,7 @@ export interface operations {
                 /** @description As `layout.routing` of a document, before which it goes. */
                 routing?: ("planes" | "elastic" | "auto") | null;
                 /** @description As `layout.placement` of a document, before which it goes. */
-                placement?: ("rows" | "layers") | null;
+                placement?: ("rows" | "layers" | "ground" | "sheet" | "space" | "auto") | null;
                 /** @description As `layout.bundles` of a document, before which it goes. */
                 bundles?: ("none" | "thick") | null;
                 /** @description As `layout.clearance` of a document, before which it goes; `none`: its null. */

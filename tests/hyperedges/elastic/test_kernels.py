@@ -73,7 +73,7 @@ def test_the_tangent_of_a_join_is_its_stem_against_its_arms(seed: int) -> None:
 def test_straightening_is_the_laplacian_and_the_biharmonic_operator(seed: int) -> None:
     s = star(seed)
     x, count = s.x.copy(), len(s.x)
-    lifts = np.linspace(0.0, 0.1, count)
+    lifts = np.linspace(0.0, 0.1, 3 * count).reshape(count, 3)
     moving = np.flatnonzero(s.degrees >= 2)
     laps, beside = np.zeros_like(x), np.zeros(count)
     straighten(
@@ -102,7 +102,7 @@ def test_straightening_is_the_laplacian_and_the_biharmonic_operator(seed: int) -
 
     for i in moving.tolist():
         step = 0.3 * lap(i)
-        step[2] += 0.3 * lifts[i]
+        step += 0.3 * lifts[i]
         if i > 0:
             beyond = []
             for j in s.links[i, :2]:
