@@ -96,7 +96,11 @@ def _trunks(x: float, radii: Floats, found: Indices, clearance: float) -> tuple[
 
 
 def depths(graph: Graph, terminals: Terminals, dodges: Indices, clearance: float) -> Floats:
-    """How far trunks (g,) lie behind the ends of nets: in front, and so negative, if they dodge."""
+    """How far trunks (g,) lie behind the ends of nets: in front, and so negative, if they dodge.
+
+    Of those that dodge in a channel the leftmost is foremost: level with its way to the right may
+    be the end of one that turns forward behind it.
+    """
     found = np.zeros(len(dodges))
     starts = terminals.channel_starts
     apart = clearance + AIR
@@ -111,7 +115,7 @@ def depths(graph: Graph, terminals: Terminals, dodges: Indices, clearance: float
         others = np.where(radii == order[-1], second, order[-1])
         deep = np.maximum(ABOVE * radii, radii + others + apart)
         last = None
-        for number in np.argsort(dodges[groups], kind="stable").tolist():
+        for number in np.argsort(-dodges[groups], kind="stable").tolist():
             if dodges[groups[number]]:
                 if last is not None:
                     deep[number] = max(

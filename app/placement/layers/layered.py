@@ -23,8 +23,8 @@ RESTARTS = 120
 COMPLETED = 4
 """Of these so many, those with the fewest crossings, are completed."""
 
-SMALL = 60_000
-"""Objects of all restarts together that are ordered."""
+PAIRS = 1_000_000
+"""Pairs of nets in channels that all restarts together look at, roughly, each time they count."""
 
 DODGE, TRUNK, LENGTH = 3.0, 0.25, 0.01
 """What a dodge, a trunk and a unit of vertical way cost beside a crossing."""
@@ -80,15 +80,15 @@ def _planned(graph: Graph, found: Indices, clearance: float) -> Plan:
 def _orders(between: Terminals) -> list[Indices]:
     """The orders with the fewest crossings, from the document's and from shuffled ones."""
     count = len(between.object_ranks)
-    restarts = max(1, min(RESTARTS, SMALL // max(count, 1)))
-    sweeps = SWEEPS if count < SMALL else 8
+    pairs = int((np.diff(between.channel_starts) ** 2).sum())
+    restarts = max(1, min(RESTARTS, PAIRS // max(pairs, 1)))
     spaces = spaces_of(between)
     found: list[tuple[int, int, Indices]] = []
     for restart in range(restarts):
         start = np.arange(count)
         if restart:
             start = np.random.default_rng(restart).permutation(count)
-        result, crossings = order(between, start, sweeps, spaces)
+        result, crossings = order(between, start, SWEEPS, spaces)
         found.append((crossings, restart, result))
     found.sort(key=lambda each: each[:2])
     return [result for _, _, result in found[:COMPLETED]]

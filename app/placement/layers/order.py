@@ -89,12 +89,13 @@ def _sweep(
                 )  # fmt: skip
             row[:] = row[np.argsort(keys, kind="mergesort")]
             _stand(row, spaces, rows, by_object, object_starts, heights)
-        if sweep >= sweeps - 3 or sweep % 8 == 7:
-            for rank in range(ranks):
-                _exchange(
-                    found[rank_starts[rank] : rank_starts[rank + 1]], starts, middles, channels,
-                    groups, rows, by_object, object_starts, spaces, heights,
-                )  # fmt: skip
+        if sweep < sweeps - 3 and sweep % 8 != 7:
+            continue
+        for rank in range(ranks):
+            _exchange(
+                found[rank_starts[rank] : rank_starts[rank + 1]], starts, middles, channels,
+                groups, rows, by_object, object_starts, spaces, heights,
+            )  # fmt: skip
         crossings = all_between(channel_starts, starts, middles, heights)
         if crossings < fewest_found:
             fewest_found = crossings

@@ -10,8 +10,10 @@ import numpy as np
 from numba import njit
 
 from app.arrays import Indices
+from app.placement.layers.feasible import UNREACHED, incident, longest_paths, tight_tree
 
-UNREACHED = -1
+MOST_AT_ONCE = 256
+"""Subtrees that move between two looks at the whole tree."""
 
 
 def solve(
@@ -35,10 +37,10 @@ def solve(
     tails, heads, lengths = (
         np.ascontiguousarray(each, dtype=np.int64) for each in (tails, heads, lengths)
     )
-    values = _longest_paths(count, tails, heads, lengths) if start is None else start.copy()
+    values = longest_paths(count, tails, heads, lengths) if start is None else start.copy()
     if start is None and values[0] < 0:
         raise ValueError("edges go round in a circle")
-    tree = _tight_tree(count, tails, heads, lengths, values)
+    tree = tight_tree(count, tails, heads, lengths, values)
     if tree.min(initial=0) < 0:
         raise ValueError("edges do not join all nodes")
     pull = np.zeros(count, dtype=np.int64)
@@ -46,84 +48,6 @@ def solve(
     np.subtract.at(pull, tails, weights)
     _improve(values, tree, pull, tails, heads, lengths, work)
     return np.asarray(values - values.min())
-
-
-@njit(cache=True)
-def _longest_paths(count: int, tails: Indices, heads: Indices, lengths: Indices) -> Indices:
-    """The least values that keep all distances, all at least 0; -1 where there are none."""
-    starts = np.zeros(count + 1, np.int64)
-    waits = np.zeros(count, np.int64)
-    for e in range(len(tails)):
-        starts[tails[e] + 1] += 1
-        waits[heads[e]] += 1
-    starts = np.cumsum(starts)
-    places = starts[:-1].copy()
-    out = np.empty(len(tails), np.int64)
-    for e in range(len(tails)):
-        out[places[tails[e]]] = e
-        places[tails[e]] += 1
-    values = np.zeros(count, np.int64)
-    ready = np.empty(count, np.int64)
-    last = 0
-    for node in range(count):
-        if waits[node] == 0:
-            ready[last] = node
-            last += 1
-    first = 0
-    while first < last:
-        node = ready[first]
-        first += 1
-        for place in range(starts[node], starts[node + 1]):
-            e = out[place]
-            head = heads[e]
-            values[head] = max(values[head], values[node] + lengths[e])
-            waits[head] -= 1
-            if waits[head] == 0:
-                ready[last] = head
-                last += 1
-    if last < count:
-        values[0] = -1
-    return values
-
-
-@njit(cache=True)
-def _tight_tree(
-    count: int, tails: Indices, heads: Indices, lengths: Indices, values: Indices
-) -> Indices:
-    """Edges (count - 1,) of a tree without slack; moves ``values`` for it. -1 where it misses some.
-
-    The tree grows from node 0; what is not joined to it without slack moves nearer as one.
-    """
-    tree = np.full(count - 1, UNREACHED, np.int64)
-    inside = np.zeros(count, np.bool_)
-    inside[0] = True
-    size = 1
-    while size < count:
-        grown = True
-        while grown:
-            grown = False
-            for e in range(len(tails)):
-                u, v = tails[e], heads[e]
-                if inside[u] != inside[v] and values[v] - values[u] == lengths[e]:
-                    tree[size - 1] = e
-                    inside[u] = inside[v] = True
-                    size += 1
-                    grown = True
-        if size == count:
-            break
-        nearest, least = UNREACHED, 0
-        for e in range(len(tails)):
-            if inside[tails[e]] != inside[heads[e]]:
-                slack = values[heads[e]] - values[tails[e]] - lengths[e]
-                if nearest == UNREACHED or slack < least:
-                    nearest, least = e, slack
-        if nearest == UNREACHED:
-            break
-        shift = least if inside[tails[nearest]] else -least
-        for node in range(count):
-            if inside[node]:
-                values[node] += shift
-    return tree
 
 
 @njit(cache=True)
@@ -135,19 +59,7 @@ def _hang(
 
     The subtree of ``order[i]`` is ``order[i]`` to ``order[ends[i] - 1]``.
     """
-    starts = np.zeros(count + 1, np.int64)
-    for e in tree:
-        starts[tails[e] + 1] += 1
-        starts[heads[e] + 1] += 1
-    starts = np.cumsum(starts)
-    places = starts[:-1].copy()
-    around = np.empty(2 * len(tree), np.int64)
-    for k in range(len(tree)):
-        e = tree[k]
-        around[places[tails[e]]] = k
-        places[tails[e]] += 1
-        around[places[heads[e]]] = k
-        places[heads[e]] += 1
+    starts, around = incident(count, tails[tree], heads[tree])
     stack = np.empty(count, np.int64)
     sizes = np.ones(count, np.int64)
     stack[0] = 0
@@ -180,13 +92,19 @@ def _improve(
     values: Indices, tree: Indices, pull: Indices, tails: Indices, heads: Indices,
     lengths: Indices, work: int,
 ) -> None:  # fmt: skip
-    """Exchange tree edges until no subtree gains by moving: the values are best then."""
+    """Exchange tree edges until no subtree gains by moving: the values are best then.
+
+    Subtrees that have nothing to do with each other move between two looks at the whole tree.
+    """
     count = len(values)
     parents = np.empty(count, np.int64)
     order = np.empty(count, np.int64)
     ends = np.empty(count, np.int64)
     places = np.empty(count, np.int64)
     pulls = np.empty(count, np.int64)
+    gains = np.empty(count, np.int64)
+    touched = np.empty((MOST_AT_ONCE, 3), np.int64)
+    starts, around = incident(count, tails, heads)
     done = 0
     while done < work:
         done += count + len(tails)
@@ -194,32 +112,65 @@ def _improve(
         for i in range(count):
             places[order[i]] = i
         pulls[:] = pull
-        best, gain = UNREACHED, 0
+        gains[0] = 0
         for i in range(count - 1, 0, -1):
             node = order[i]
             e = tree[parents[node]]
             is_head = heads[e] == node
             pulls[tails[e] if is_head else heads[e]] += pulls[node]
             # Moving the subtree away from its tree edge lessens the sum by this.
-            gained = -pulls[node] if is_head else pulls[node]
-            if gained > gain:
-                best, gain = i, gained
-        if best == UNREACHED:
+            gains[i] = -pulls[node] if is_head else pulls[node]
+        chosen = np.flatnonzero(gains > 0)
+        if len(chosen) == 0:
             return
-        first, end = best, ends[best]
-        leaving = parents[order[best]]
-        upwards = heads[tree[leaving]] == order[best]
-        entering, least = UNREACHED, 0
-        for e in range(len(tails)):
-            from_inside = first <= places[tails[e]] < end
-            to_inside = first <= places[heads[e]] < end
-            if from_inside == to_inside or from_inside != upwards:
+        chosen = chosen[np.argsort(-gains[chosen], kind="mergesort")]
+        moved = 0
+        for place in range(len(chosen)):
+            first = int(chosen[place])
+            if moved == MOST_AT_ONCE:
+                break
+            end = int(ends[first])
+            is_free = True
+            for k in range(moved):
+                meets = first < touched[k, 1] and touched[k, 0] < end
+                is_free = is_free and not meets and not first <= touched[k, 2] < end
+            if not is_free:
+                continue
+            leaving = parents[order[first]]
+            upwards = heads[tree[leaving]] == order[first]
+            entering = _entering(
+                first, end, upwards, order, places, starts, around, tails, heads, lengths, values
+            )
+            if entering == UNREACHED:
+                continue
+            u, v = tails[entering], heads[entering]
+            slack = values[v] - values[u] - lengths[entering]
+            for i in range(first, end):
+                values[order[i]] += slack if upwards else -slack
+            tree[leaving] = entering
+            touched[moved] = first, end, places[v] if upwards else places[u]
+            moved += 1
+        if moved == 0:
+            return
+
+
+@njit(cache=True)
+def _entering(
+    first: int, end: int, upwards: bool, order: Indices, places: Indices, starts: Indices,
+    around: Indices, tails: Indices, heads: Indices, lengths: Indices, values: Indices,
+) -> int:  # fmt: skip
+    """The edge that a subtree comes up against first where it moves, the lowest of such; or -1."""
+    found, least = UNREACHED, 0
+    for i in range(first, end):
+        node = order[i]
+        for place in range(starts[node], starts[node + 1]):
+            e = around[place]
+            if (tails[e] == node) != upwards:
+                continue
+            other = heads[e] if upwards else tails[e]
+            if first <= places[other] < end:
                 continue
             slack = values[heads[e]] - values[tails[e]] - lengths[e]
-            if entering == UNREACHED or slack < least:
-                entering, least = e, slack
-        if entering == UNREACHED:
-            return
-        for i in range(first, end):
-            values[order[i]] += least if upwards else -least
-        tree[leaving] = entering
+            if found == UNREACHED or slack < least or (slack == least and e < found):
+                found, least = e, slack
+    return found
