@@ -1,11 +1,14 @@
 """How readable the layouts of examples are, routed in planes and by relaxation, as a table.
 
+Netlists are also shown in layers.
+
 ``python -m benchmarks.readability [NAME …]``; all are among the examples.
 
 Crossings, and those below 20 degrees, are of middle lines of different hyperedges; hidden is the
 mean share of tubes that is behind others or items; labels are free of which less than a fifth is
 covered. All from one direction, without perspective: the program's own, or that one of `VIEWS` with
-the fewest crossings. Seconds are the routing's alone, by the clock, when kernels are compiled.
+the fewest crossings. Seconds are the routing's alone, in layers the whole layout's, by the clock,
+when kernels are compiled.
 """
 
 from __future__ import annotations
@@ -23,6 +26,7 @@ from app.formats import registry
 from app.hyperedges.clearance.certificate import certify
 from app.hyperedges.pinches import find_pinches
 from app.hyperedges.route import route
+from app.layout import lay_out
 from app.notations.loader import load_notation
 from app.placement.place import place
 from app.readability.drawing import drawing_of
@@ -42,7 +46,10 @@ SCENES = {
 }
 """Files, and their formats."""
 
-WAYS: tuple[Literal["planes", "elastic"], ...] = ("planes", "elastic")
+NETLIST = "yosys/up3down5"
+
+Way = Literal["planes", "elastic", "layers"]
+WAYS: tuple[Way, ...] = ("planes", "elastic", "layers")
 VIEWS = 60
 
 COLUMNS = (
@@ -79,14 +86,20 @@ class Row:
     own_contacts: int
 
 
-def measure(name: str, way: Literal["planes", "elastic"]) -> Row:
-    """Route one of `SCENES` and look at it."""
+def measure(name: str, way: Way) -> Row:
+    """Route one of `SCENES`, or lay it out in layers, and look at it."""
     data = (EXAMPLES / f"{name}.json").read_bytes()
-    program = registry.read(SCENES[name], data, Settings())
-    placement = place(program, load_notation(program.notation))
+    wishes = (("placement", "layers"),) if way == "layers" else ()
+    program = registry.read(SCENES[name], data, Settings(), wishes)
     clearance = program.layout.clearance or 0.0
-    begun = time.perf_counter()
-    routing = route(placement, clearance=clearance, routing=way)
+    if way == "layers":
+        begun = time.perf_counter()
+        layout = lay_out(program)
+        placement, routing = layout.placement, layout.routing
+    else:
+        placement = place(program, load_notation(program.notation))
+        begun = time.perf_counter()
+        routing = route(placement, clearance=clearance, routing=way)
     seconds = time.perf_counter() - begun
     proof = certify(routing, placement, clearance)
     drawing = drawing_of(routing, placement)
@@ -127,8 +140,9 @@ def main(names: Sequence[str]) -> int:
     """Measure the examples of these names, or all, and print the table."""
     chosen = [name for name in SCENES if not names or name.rpartition("/")[2] in names]
     for way in WAYS:  # kernels compile, or come from their cache, before anything is timed
-        measure("id3-clause-2", way)
-    print(table([measure(name, way) for name in chosen for way in WAYS]))
+        measure(NETLIST if way == "layers" else "id3-clause-2", way)
+    ways = {name: WAYS if SCENES[name] == "yosys" else WAYS[:2] for name in chosen}
+    print(table([measure(name, way) for name in chosen for way in ways[name]]))
     return 0
 
 

@@ -50,16 +50,21 @@ def attached(program: Program, placed: Placement, standing: Standing | None = No
         attachment_starts=starts,
         attachment_items=owners,
     )
-    if not is_spread(program):
-        return whole
     held = np.repeat(stays, counts)
-    if before is not None:
+    if before is not None and is_spread(program):
         whole, held = _followed(whole, before, held)
-    if not placed.stands:
+    if not placed.stands and is_spread(program):
         whole = all_round(program, whole, held)
         named = [end.point is None for each in program.hyperedges for end in each.attachments]
         held = held | np.array(named, dtype=np.bool_)
-    return separated(spread(program, whole, held), program.layout.clearance or 0.0, held)
+    return apart(program, whole, held)
+
+
+def apart(program: Program, placement: Placement, held: Flags) -> Placement:
+    """The placement with ends at the same place side by side, but for those ``held`` (a,)."""
+    if not is_spread(program):
+        return placement
+    return separated(spread(program, placement, held), program.layout.clearance or 0.0, held)
 
 
 def _followed(

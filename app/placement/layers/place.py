@@ -9,6 +9,7 @@ import numpy as np
 from app.arrays import Flags, Floats, Indices
 from app.grouped import starts_of
 from app.notations.notation import Notation
+from app.placement.attaching import apart
 from app.placement.layers.graph import Graph
 from app.placement.layers.parts import in_parts
 from app.placement.layers.plan import Layers
@@ -54,7 +55,7 @@ def in_layers(program: Program, notation: Notation, placed: Placement) -> Placem
         attachment_items=ports.items,
     )
     if is_fixed.any() or not ports.exact:
-        return moved
+        return apart(program, moved, ~ports.named)
     plans = tuple(plan.moved(*shift.tolist()) for plan in layers.plans)
     return replace(moved, layers=Layers(plans, layers.nets))
 

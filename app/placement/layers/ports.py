@@ -28,8 +28,9 @@ class Ports:
     ``firsts`` (n,): height of an item's first row over its centre; ``spans`` (n,): rows from there
     to its last. ``depths`` (n,): how far before its centre the ports of an item are. ``exact``:
     whether all ports are in rows, and at the sides of items that stand for themselves, so that
-    ways can be constructed. ``items`` (a,) are the attachments' own, ``positions`` (a, 3) relative
-    to the centres of what these stand in, and ``directions`` (a, 3) unit vectors.
+    ways can be constructed. ``named`` (a,): those at a point of the document. ``items`` (a,) are
+    the attachments' own, ``positions`` (a, 3) relative to the centres of what these stand in, and
+    ``directions`` (a, 3) unit vectors.
     """
 
     sides: Indices
@@ -37,6 +38,7 @@ class Ports:
     firsts: Floats
     spans: Indices
     depths: Floats
+    named: Flags
     items: Indices
     positions: Floats
     directions: Floats
@@ -86,7 +88,9 @@ def with_ports(
         )
     directions[~named] = 0.0
     directions[~named, 0] = sides[~named]
-    return placed, Ports(sides, rows, firsts, spans, depths, items, relative, directions, exact)
+    return placed, Ports(
+        sides, rows, firsts, spans, depths, named, items, relative, directions, exact
+    )
 
 
 def _differ(rows: Indices, sides: Indices) -> bool:

@@ -136,3 +136,26 @@ def test_an_edit_keeps_layers_where_they_are() -> None:
     after = lay_out(read_program(json.dumps(document).encode(), Settings()), previous=before)
     assert after.placement.centers[:-1].tobytes() == before.placement.centers.tobytes()
     assert after.routing.control_points.tobytes() == before.routing.control_points.tobytes()
+
+
+def test_hyperedges_that_end_at_one_point_are_side_by_side_there() -> None:
+    point = {"id": "out", "position": [0.7, 0.0, 0.0], "direction": [1.0, 0.0, 0.0]}
+    shape = {"type": "box", "size": [1.4, 0.8, 1.2]}
+    items = [
+        {"id": "hub", "label": "hub", "shape": shape, "attachment_points": [point]},
+        *({"id": f"n{number}", "label": f"n{number}"} for number in range(3)),
+    ]
+    edges = [
+        {
+            "id": f"e{number}",
+            "attachments": [
+                {"item": "hub", "point": "out", "flow": "out"},
+                {"item": f"n{number}", "flow": "in"},
+            ],
+        }
+        for number in range(3)
+    ]
+    layout = laid({"items": items, "hyperedges": edges, **SAID})
+    assert layout.placement.layers is None
+    assert len({tuple(end) for end in layout.placement.attachment_positions[::2].tolist()}) == 3
+    assert_clear(layout)
