@@ -8,10 +8,14 @@ from app.program.model import Program
 
 
 def mode_of(program: Program, standing: Standing | None) -> Mode:
-    """By what items without positions are placed: as before, where that is left to us still."""
-    if standing is not None and program.layout.placement == "auto":
+    """By what items without positions are placed: as before, where the same is asked for.
+
+    What is asked may leave it to us, or may have been too much for layers.
+    """
+    wishes = program.layout
+    if standing is not None:
         before = standing.program.layout
-        if before.placement == "auto" and before.dimensions == program.layout.dimensions:
+        if (before.placement, before.dimensions) == (wishes.placement, wishes.dimensions):
             return standing.mode
     return wished_mode(program)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -16,6 +17,7 @@ from app.placement.family import Family, family
 from app.placement.joined import joined
 from app.placement.labels import label_place
 from app.placement.layers.place import in_layers
+from app.placement.layers.terminals import TooManyError
 from app.placement.modes import Mode
 from app.placement.placement import LabelPlace, Placement
 from app.placement.rooms import TOUCHING
@@ -59,7 +61,9 @@ def place(
     ]
     placed = replace(placed, radii=np.array(radii, dtype=np.float64))
     if mode == "layers" and standing is None:
-        return in_layers(program, notation, placed)
+        with suppress(TooManyError):
+            return in_layers(program, notation, placed)
+        placed = replace(placed, mode="rows")
     return attached(program, placed, standing)
 
 

@@ -20,7 +20,7 @@ FEW = 6
 AIR_OF_ITEM, AIR_OF_LANE = 0.33, 0.06
 """Free height beside an item, and between lanes, document units."""
 
-WORK = 3_000_000_000
+WORK = 1_000_000_000
 """Looks at edges until the heights are good enough."""
 
 

@@ -27,7 +27,8 @@ def in_layers(program: Program, notation: Notation, placed: Placement) -> Placem
 
     What has no parent moves, with all that it contains. Items with positions stay where they are:
     the others stand to the right of them. Where all attachments are in rows at the left and right
-    sides of items without parents, the placement has layers to construct the curves in.
+    sides of items without parents, the placement has layers to construct the curves in. Raises
+    `app.placement.layers.terminals.TooManyError` where there is too much for that.
     """
     roots = _roots(placed.parents)
     tops = np.flatnonzero(placed.parents < 0)

@@ -11,7 +11,10 @@ from app.grouped import starts_of
 from app.placement.layers.graph import Graph
 
 LANE = -1
-"""The item of an object that is a lane."""
+"""The net of an object that is an item."""
+
+MOST_LANES, MOST_PAIRS = 100_000, 20_000_000
+"""Lanes, and pairs of nets in one channel each, that are ordered."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,8 +58,16 @@ class Terminals:
         return np.searchsorted(self.group_channels, np.arange(self.ranks + 2))
 
 
+class TooManyError(Exception):
+    """There is more between the ranks of a graph than could be ordered in any useful time."""
+
+
 def terminals(graph: Graph, ranks: Indices) -> Terminals:
-    """The terminals of a graph whose items have ``ranks`` (n,)."""
+    """The terminals of a graph whose items have ``ranks`` (n,).
+
+    Raises `TooManyError` where there are more lanes, or more nets in one channel, than can be
+    ordered.
+    """
     nets = graph.port_nets
     items = len(ranks)
     channels = ranks[graph.port_items] + (graph.port_sides > 0)
@@ -66,6 +77,11 @@ def terminals(graph: Graph, ranks: Indices) -> Terminals:
     np.maximum.at(last, nets, channels)
     # A lane at each rank between two channels of a net.
     lanes = last - first
+    width = int(last.max(initial=-1)) + 2
+    begin, end = (np.bincount(at, minlength=width) for at in (first, last + 1))
+    pairs = (np.cumsum(begin - end) ** 2).sum()
+    if lanes.sum() > MOST_LANES or pairs > MOST_PAIRS:
+        raise TooManyError
     lane_nets = np.repeat(np.arange(count), lanes)
     lane_ranks = (
         np.arange(len(lane_nets)) - np.repeat(starts_of(lanes)[:-1], lanes) + first[lane_nets]

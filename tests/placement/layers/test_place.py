@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ import pytest
 from app.formats import registry
 from app.hyperedges.clearance.overlaps import find_overlaps
 from app.layout import Layout, judge, lay_out
+from app.notations.loader import load_notation
+from app.placement.place import place
 from app.program.reading import read_program
 from app.settings import Settings
 from benchmarks.random_netlists import random_netlist
@@ -159,3 +162,16 @@ def test_hyperedges_that_end_at_one_point_are_side_by_side_there() -> None:
     assert layout.placement.layers is None
     assert len({tuple(end) for end in layout.placement.attachment_positions[::2].tolist()}) == 3
     assert_clear(layout)
+
+
+def test_what_is_too_much_for_layers_stands_in_rows() -> None:
+    names = [f"n{number}" for number in range(280)]
+    pairs = [*pairwise(names), *([(names[0], names[-1])] * 280)]
+    edges = [
+        edge(f"e{number}", (one, "out"), (other, "in")) for number, (one, other) in enumerate(pairs)
+    ]
+    document = {"items": [{"id": name} for name in names], "hyperedges": edges, **SAID}
+    program = read_program(json.dumps(document).encode(), Settings())
+    placement = place(program, load_notation(program.notation))
+    assert placement.layers is None
+    assert (placement.centers[:, 2] == placement.centers[0, 2]).all()

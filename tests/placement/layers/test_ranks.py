@@ -46,3 +46,12 @@ def test_nets_go_right_and_outputs_share_the_last_rank() -> None:
     # 0 -> 1 -> 2, 0 -> 3; 2 and 3 are outputs.
     graph = graph_of(4, [[0, 1], [1, 2], [0, 3]], last=(2, 3))
     assert ranks(graph).tolist() == [0, 1, 2, 2]
+
+
+def test_what_all_goes_round_is_cut_in_a_few_rounds() -> None:
+    dice = np.random.default_rng(0)
+    tails, heads = dice.integers(0, 300, (2, 5000))
+    keep = tails != heads
+    tails, heads = tails[keep], heads[keep]
+    back = feedback(300, tails, heads, np.zeros(300, dtype=np.bool_))
+    assert goes_nowhere_round(np.stack([tails, heads], 1)[~back].tolist())
