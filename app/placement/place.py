@@ -25,8 +25,9 @@ from app.placement.sized import Place, Sized
 from app.placement.standing import Standing
 from app.placement.stress.arrange import silent
 from app.placement.stress.pairs import Progress
-from app.placement.turning import UNTURNED, Quaternion, Vector, moved, reach, then, turned
+from app.placement.turning import UNTURNED, Quaternion, Vector, moved, reach, then
 from app.placement.untouched import untouched
+from app.placement.within import in_parent
 from app.program.model import Program
 from app.solids.extents import middle_of
 from app.solids.solid import Tray
@@ -127,7 +128,7 @@ def _in_world(
             turns[number], centers[number] = each.turn, offset
         else:
             turns[number] = then(turns[parent], each.turn)
-            centers[number] = _in_parent(sized[parent], centers[parent], turns[parent], offset)
+            centers[number] = in_parent(sized[parent].solid, centers[parent], turns[parent], offset)
         still[number] = stood is not None and (centers[number], turns[number]) == (
             stood.center,
             stood.rotation,
@@ -152,13 +153,6 @@ def _offset(sized: Sequence[Sized], number: int, parent: int, roots: dict[int, P
     if stood is not None and abs(height - stood.offset[2]) <= TOUCHING:
         height = stood.offset[2]
     return (x, y, height)
-
-
-def _in_parent(parent: Sized, center: Vector, turn: Quaternion, offset: Vector) -> Vector:
-    """Where in the world ``offset`` from the parent's origin is."""
-    x, y, z = middle_of(parent.solid)
-    moved = turned(turn, (offset[0] - x, offset[1] - y, offset[2] - z))
-    return (center[0] + moved[0], center[1] + moved[1], center[2] + moved[2])
 
 
 def _ground(parent: Sized) -> float:

@@ -10,12 +10,14 @@ from app.arrays import Flags, Floats, Indices
 from app.grouped import starts_of
 from app.notations.notation import Notation
 from app.placement.attaching import apart
+from app.placement.family import family
 from app.placement.layers.graph import Graph
 from app.placement.layers.parts import in_parts
 from app.placement.layers.plan import Layers
 from app.placement.layers.ports import Ports, flows_out, with_ports
 from app.placement.placement import Placement
 from app.placement.turning import matrices
+from app.placement.within import in_parent
 from app.program.model import Program
 from app.program.port_rows import ROW
 
@@ -43,12 +45,12 @@ def in_layers(program: Program, notation: Notation, placed: Placement) -> Placem
     )
     moves = np.zeros_like(placed.centers)
     moves[tops] = np.where(is_fixed[:, None], 0.0, centers - placed.centers[tops])
+    # Of what stands in something else offsets are within that.
+    moved = replace(placed, centers=placed.centers + moves, offsets=placed.offsets + moves)
     moved = replace(
-        placed,
-        centers=placed.centers + moves[roots],
-        # Of what stands in something else these are within that.
-        offsets=placed.offsets + moves,
-        attachment_positions=ports.positions + (placed.centers + moves)[roots[ports.items]],
+        moved,
+        centers=_with_contents(program, moved),
+        attachment_positions=ports.positions + moved.centers[roots[ports.items]],
         attachment_directions=ports.directions,
         attachment_starts=starts_of(
             np.array([len(each.attachments) for each in program.hyperedges], dtype=np.int64)
@@ -59,6 +61,20 @@ def in_layers(program: Program, notation: Notation, placed: Placement) -> Placem
         return apart(program, moved, ~ports.named)
     plans = tuple(plan.moved(*shift.tolist()) for plan in layers.plans)
     return replace(moved, layers=Layers(plans, layers.nets))
+
+
+def _with_contents(program: Program, placed: Placement) -> Floats:
+    """Centres (n, 3) of all items, what has a parent within it: to the bit as elsewhere."""
+    centers = placed.centers.tolist()
+    turns, offsets = placed.rotations.tolist(), placed.offsets.tolist()
+    relations = family(program)
+    for number in relations.order:
+        parent = relations.parents[number]
+        if parent >= 0:
+            centers[number] = in_parent(
+                placed.solids[parent], centers[parent], turns[parent], offsets[number]
+            )
+    return np.array(centers, dtype=np.float64).reshape(-1, 3)
 
 
 def _roots(parents: Indices) -> Indices:

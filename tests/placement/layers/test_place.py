@@ -12,6 +12,7 @@ import pytest
 from app.formats import registry
 from app.hyperedges.clearance.overlaps import find_overlaps
 from app.layout import Layout, judge, lay_out
+from app.layout_record import read_layout, write_layout
 from app.notations.loader import load_notation
 from app.placement.place import place
 from app.program.reading import read_program
@@ -175,3 +176,15 @@ def test_what_is_too_much_for_layers_stands_in_rows() -> None:
     placement = place(program, load_notation(program.notation))
     assert placement.layers is None
     assert (placement.centers[:, 2] == placement.centers[0, 2]).all()
+
+
+@pytest.mark.parametrize("netlists", [False, True])
+def test_layers_are_recorded_as_they_are(*, netlists: bool) -> None:
+    layout = netlist(random_netlist(1)) if netlists else laid(NODES)
+    read = read_layout(layout.program, write_layout(layout))
+    assert read is not None
+    for name in ("centers", "sizes", "attachment_positions"):
+        one, other = (getattr(each.placement, name) for each in (layout, read))
+        assert one.tobytes() == other.tobytes()
+    assert layout.placement.solids == read.placement.solids
+    assert layout.routing.control_points.tobytes() == read.routing.control_points.tobytes()
