@@ -37,6 +37,10 @@ Preview = Callable[[bytes], None]
 """Shown a picture that is not finished, as PNG."""
 
 
+SPACINGS = (1.15, 1.3, 1.5)
+"""How many times as far apart items are placed by stress where tubes find no way between them."""
+
+
 def silent(_stage: str, _share: float) -> None:
     """Progress that nobody listens to."""
 
@@ -80,15 +84,21 @@ def lay_out(
     come too near to each other. One that keeps curves of such a layout is not complete either;
     with ``curves_anew`` none is kept.
     """
+    progress = _rising(progress)
     progress("placing items", 0.1)
     find_palette(program.style.palette)  # now, and not when all has been laid out
     standing = None if previous is None else previous.standing
-    placement = place(
-        program,
-        load_notation(program.notation),
-        standing,
-        progress=lambda: progress("placing items", 0.1),
-    )
+
+    def placed(spacing: float) -> Placement:
+        return place(
+            program,
+            load_notation(program.notation),
+            standing,
+            lambda: progress("placing items", 0.1),
+            spacing,
+        )
+
+    placement = placed(1.0)
     progress("laying out hyperedges", 0.2)
     wishes = program.layout
     hues = _hues(program, previous)
@@ -107,20 +117,70 @@ def lay_out(
         allowance.check()
 
     kept = None if previous is None or curves_anew else _previous(program, previous)
-    routing = route(
-        placement,
-        curves=wishes.curves or _usual_curves(program),
-        fidelity=wishes.fidelity,
-        closest=wishes.closest,
-        clearance=wishes.clearance,
-        routing=wishes.routing,
-        join_heights=_join_heights(program),
-        previous=kept,
-        progress=report,
-        allowance=allowance,
-    )
+
+    def routed(placement: Placement) -> Routing:
+        return route(
+            placement,
+            curves=wishes.curves or _usual_curves(program),
+            fidelity=wishes.fidelity,
+            closest=wishes.closest,
+            clearance=wishes.clearance,
+            routing=wishes.routing,
+            join_heights=_join_heights(program),
+            previous=kept,
+            progress=report,
+            allowance=allowance,
+        )
+
+    routing = routed(placement)
+    if previous is None and placement.mode != "rows" and wishes.clearance is not None:
+        placement, routing = _with_room(
+            placement, routing, placed, routed, wishes.clearance, allowance
+        )
     was_complete = kept is None or previous is None or previous.complete
     return Layout(program, placement, routing, hues, was_complete and not allowance.ran_out)
+
+
+def _rising(progress: Progress) -> Progress:
+    """The same, but what is done again is not said to be less."""
+    most = 0.0
+
+    def report(stage: str, share: float) -> None:
+        nonlocal most
+        most = max(most, share)
+        progress(stage, most)
+
+    return report
+
+
+def _with_room(
+    placement: Placement,
+    routing: Routing,
+    placed: Callable[[float], Placement],
+    routed: Callable[[Placement], Routing],
+    clearance: float,
+    allowance: Allowance,
+) -> tuple[Placement, Routing]:
+    """A placement by stress and its routing; farther apart, if that leaves fewer faults."""
+    best = placement, routing
+    fewest = _faults(placement, routing, clearance)
+    for spacing in SPACINGS:
+        if fewest == 0 or allowance.ran_out:
+            break
+        wider = placed(spacing)
+        if np.array_equal(wider.centers, best[0].centers):
+            break
+        curves = routed(wider)
+        faults = _faults(wider, curves, clearance)
+        if faults < fewest and not allowance.ran_out:
+            best, fewest = (wider, curves), faults
+    return best
+
+
+def _faults(placement: Placement, routing: Routing, clearance: float) -> int:
+    """How many conflicts there are, hyperedges that touch themselves, and pinches."""
+    found = certify(routing, placement, clearance)
+    return len(found.conflicts) + len(found.own.hyperedges) + len(find_pinches(routing).segments)
 
 
 def shown(program: Program, placement: Placement) -> Placement:

@@ -159,7 +159,7 @@ def _on_faces(
     width, depth, height = size.tolist()
     for pitch in PITCHES:
         slots = all_round_slots(
-            solid, (width, depth, height), len(rows), pitch * thickness, thickness / 2
+            solid, (width, depth, height), len(rows), pitch * thickness, thickness
         )
         places, normals = free_slots(slots, taken, thickness)
         if len(places) >= len(new):
@@ -170,6 +170,9 @@ def _on_faces(
     # On the surface of the box around the item.
     scale = (np.abs(local) / (0.5 * size)).max(axis=1, keepdims=True)
     wanted = np.divide(local, scale, out=np.zeros_like(local), where=scale > 1e-9)
-    chosen = assigned(wanted, places, len(places))
+    lengths = np.linalg.norm(local, axis=1, keepdims=True)
+    ways = np.divide(local, lengths, out=np.zeros_like(local), where=lengths > 1e-9)
+    # A slot of another side costs what it would to be so far away.
+    chosen = assigned(wanted, places, float((size**2).sum()) * (1.0 - ways @ normals.T))
     positions[new] = places[chosen] @ frame.T + placement.centers[item]
     directions[new] = normals[chosen] @ frame.T

@@ -88,6 +88,7 @@ def placed_by_stress(
     mode: Mode,
     stood: Stood,
     progress: Progress,
+    spacing: float,
 ) -> list[Vector]:
     """Origins of all ``groups``; ``joined`` are the groups, by number, that each hyperedge joins.
 
@@ -105,7 +106,15 @@ def placed_by_stress(
     starts = np.concatenate([[0], np.cumsum([len(each) for each in joined])]).astype(np.int64)
     members = np.array([number for each in joined for number in each], dtype=np.int64)
     graph = Hypergraph(
-        _radii(boxes, len(groups)), boxes, starts, members, thickness, places, has_place, held
+        _radii(boxes, len(groups)),
+        boxes,
+        starts,
+        members,
+        thickness,
+        places,
+        has_place,
+        held,
+        spacing,
     )
     whole = np.zeros((len(groups), 3))
     whole[:, axes] = arranged(graph, progress)
@@ -141,6 +150,7 @@ def by_stress(
     thickness: float,
     mode: Mode,
     progress: Progress,
+    spacing: float = 1.0,
 ) -> dict[int, Vector]:
     """Where the solids' centres of the free ones of ``children`` are, seen from their parent.
 
@@ -170,7 +180,7 @@ def by_stress(
     together = [list(dict.fromkeys(numbers[child] for child in each)) for each in joined]
     edges = [each for each in together if len(each) > 1]
     origins = placed_by_stress(
-        groups, edges, thickness, mode, Stood(places, frozenset(held)), progress
+        groups, edges, thickness, mode, Stood(places, frozenset(held)), progress, spacing
     )
     depth = sum(place[1] for place in places.values()) / max(len(places), 1)
     found: dict[int, Vector] = {}

@@ -173,7 +173,14 @@ def _off_ground(
     within = stress.within(-1)
     joined = [] if within is None else within.joined
     found = by_stress(
-        sized, roots, blocks, joined, stress.joined.thickness, stress.mode, stress.progress
+        sized,
+        roots,
+        blocks,
+        joined,
+        stress.joined.thickness,
+        stress.mode,
+        stress.progress,
+        stress.spacing,
     )
     for child in free:
         sized[child].lift = found[child][2]

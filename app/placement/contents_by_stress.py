@@ -26,6 +26,7 @@ class Within:
     joined: Sequence[Sequence[int]]
     thickness: float
     progress: Progress
+    spacing: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +36,7 @@ class Stress:
     mode: Mode
     joined: Joined
     progress: Progress
+    spacing: float = 1.0
 
     def within(self, parent: int) -> Within | None:
         """What is joined among the contents of an item (-1: the roots); ``None`` if nothing is.
@@ -44,7 +46,7 @@ class Stress:
         groups = self.joined.groups.get(parent)
         if not groups or (parent >= 0 and self.mode != "ground"):
             return None
-        return Within(groups, self.joined.thickness, self.progress)
+        return Within(groups, self.joined.thickness, self.progress, self.spacing)
 
 
 DEEPER = 1.4
@@ -56,7 +58,14 @@ def contain_by_stress(
 ) -> Contents:
     """Children on the ground, by what hyperedges join; those with positions stay."""
     found = by_stress(
-        sized, children, blocks, stress.joined, stress.thickness, "ground", stress.progress
+        sized,
+        children,
+        blocks,
+        stress.joined,
+        stress.thickness,
+        "ground",
+        stress.progress,
+        stress.spacing,
     )
     fixed = [child for child in children if not sized[child].is_free]
     free = [child for block in blocks for child in block.members]

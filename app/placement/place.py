@@ -38,6 +38,7 @@ def place(
     notation: Notation,
     standing: Standing | None = None,
     progress: Progress = silent,
+    spacing: float = 1.0,
 ) -> Placement:
     """The places of all items and attachments. Raises what `app.solids.csg.make_body` does.
 
@@ -47,15 +48,16 @@ def place(
     changed items, and what holds them, which grows around them. What would have to grow over others
     moves to a free place, with all that is in it. Where items are placed in another mode than
     before, all are placed anew. ``progress`` may raise to end the work.
+    What is placed by what hyperedges join is ``spacing`` times as far apart as usual.
     """
     mode = mode_of(program, standing)
     if standing is not None and standing.mode != mode:
         standing = None
     rest = None if standing is None else untouched(program, standing)
     if rest is None:
-        placed = _placed(program, notation, standing, mode, progress)
+        placed = _placed(program, notation, standing, mode, progress, spacing)
     else:
-        placed = rest.beside(_placed(rest.others, notation, standing, mode, progress))
+        placed = rest.beside(_placed(rest.others, notation, standing, mode, progress, spacing))
     radii = [
         hyperedge.radius or notation.hyperedge_style(hyperedge.kind).radius
         for hyperedge in program.hyperedges
@@ -74,12 +76,13 @@ def _placed(
     standing: Standing | None,
     mode: Mode,
     progress: Progress,
+    spacing: float,
 ) -> Placement:
     """The items alone, without attachments."""
     relations = family(program)
     stress = None
     if mode not in {"rows", "layers"}:
-        stress = Stress(mode, joined(program, relations, notation), progress)
+        stress = Stress(mode, joined(program, relations, notation), progress, spacing)
     styles = [notation.item_style(item.kind) for item in program.items]
     sized, roots = measure(program, relations, styles, standing, stress)
     centers, turns, offsets = _in_world(sized, relations, roots)

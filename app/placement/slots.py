@@ -26,6 +26,14 @@ LOWEST = 0.6 * math.pi
 """Angle from the top of a ball beyond which there are no slots: it may stand on something."""
 
 
+ASIDE = 0.75
+"""Of slots from the edges of a block that floats, over a tube's thickness: so they are far enough
+from those of its other sides."""
+
+LEAST_FRONT = -0.3
+"""How far to the front slots around a cylinder may look."""
+
+
 def default_slots(
     solid: Solid, size: Size, count: int, pitch: float, inset: float
 ) -> tuple[Slots, Slots]:
@@ -62,22 +70,39 @@ def default_slots(
             assert_never(solid)
 
 
-def all_round_slots(solid: Solid, size: Size, count: int, pitch: float, inset: float) -> Slots:
+def all_round_slots(solid: Solid, size: Size, count: int, pitch: float, thickness: float) -> Slots:
     """Slots on all sides of an item that floats, but for its front, where its label is.
 
-    They are at least ``pitch`` apart, in no order. What is neither a block nor a cylinder has them
-    where it has them on the ground.
+    They are at least ``pitch`` apart on a side, and from one side to another as far as tubes of
+    this ``thickness`` need; in no order. What is neither a block nor a cylinder has them where it
+    has them on the ground.
     """
     most = OFFERED * count + 16
-    top, sides = default_slots(solid, size, count, pitch, inset)
-    if isinstance(solid, Box | Cylinder):
+    if isinstance(solid, Box):
+        return _faces(size, most, pitch, ASIDE * thickness)
+    top, sides = default_slots(solid, size, count, pitch, ASIDE * thickness)
+    if isinstance(solid, Cylinder):
         below = top.copy()
         below[:, [2, 5]] *= -1.0
         top = np.concatenate([top, below])
-    if isinstance(solid, Box):
-        sides = _sides(size, most, pitch)
-        sides = sides[sides[:, 4] >= 0.0]
+        if len(sides) == 0:
+            sides = _rings(iter([(solid.radius, 0.0, 1.0, 0.0)]), most, pitch)
+        sides = sides[sides[:, 4] >= LEAST_FRONT]
     return np.concatenate([top, sides])
+
+
+def _faces(size: Size, most: int, pitch: float, inset: float) -> Slots:
+    """All faces of a block but its front, each with one slot at least."""
+    found = []
+    for axis, side in ((0, -1.0), (0, 1.0), (1, 1.0), (2, -1.0), (2, 1.0)):
+        others = [other for other in range(3) if other != axis]
+        grid = _grid(size[others[0]] / 2 - inset, size[others[1]] / 2 - inset, most, pitch)
+        places = np.zeros((len(grid), 3))
+        places[:, others], places[:, axis] = grid, side * size[axis] / 2
+        normals = np.zeros((len(grid), 3))
+        normals[:, axis] = side
+        found.append(np.hstack([places, normals]))
+    return np.concatenate(found)
 
 
 def point_slots(position: Vector, direction: Vector, size: Size, count: int, pitch: float) -> Slots:

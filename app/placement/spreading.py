@@ -148,15 +148,17 @@ def free_slots(slots: Slots, taken: Floats, apart: float) -> tuple[Floats, Float
     return places[free], normals[free]
 
 
-def assigned(wanted: Floats, places: Floats, most: int | None = None) -> Sequence[int] | Indices:
+def assigned(
+    wanted: Floats, places: Floats, costs: Floats | None = None
+) -> Sequence[int] | Indices:
     """The slot of each end ``wanted`` (r, 3); the last one for those beyond their number.
 
-    Of the ``places`` (k, 3) the first so many at ``most`` are chosen among; left out, twice as many
-    as are wanted.
+    Of the ``places`` (k, 3) the first are chosen among, twice as many as are wanted; with ``costs``
+    (r, k), which are added to squares of distances, all of them.
     """
     count = len(wanted)
     # The best ones, and some to choose among.
-    offered = places[: most or max(2 * count, count + 8)]
+    offered = places if costs is not None else places[: max(2 * count, count + 8)]
     if count > len(offered) or count > MOST_ASSIGNED:
         order = np.argsort(np.arctan2(wanted[:, 1], wanted[:, 0]), kind="stable")
         chosen = np.empty(count, dtype=np.int64)
@@ -168,6 +170,8 @@ def assigned(wanted: Floats, places: Floats, most: int | None = None) -> Sequenc
     from scipy.optimize import linear_sum_assignment
 
     squares = ((wanted[:, None] - offered[None]) ** 2).sum(axis=2)
+    if costs is not None:
+        squares += costs
     # Equal costs are decided by the order of the document, not by the library's.
     squares += 1e-9 * np.arange(len(offered)) + 1e-12 * np.arange(count)[:, None] * np.arange(
         len(offered)

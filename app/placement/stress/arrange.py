@@ -9,8 +9,9 @@ import numpy as np
 from app.arrays import Flags, Floats, Indices
 from app.placement.stress.axes import turned_to_axes
 from app.placement.stress.boxes import Boxes, move_apart
+from app.placement.stress.crossings import crossings_of
 from app.placement.stress.descent import descend
-from app.placement.stress.pairs import Progress, pairs_of
+from app.placement.stress.pairs import Pairs, Progress, pairs_of
 from app.placement.stress.shelves import shelved
 from app.placement.stress.star import Star, components_of, part_of, star_of
 
@@ -31,6 +32,14 @@ AROUND_HUBS = 3.0
 """Room for the tubes around an item, over what its radius is more than the least for them."""
 
 
+USUAL = 1.15
+"""Of the spacing: so many times farther apart than stress and gaps alone would have it, tubes find
+ways between nearly always."""
+
+STARTS, TRIED = 12, 600_000
+"""Starts of descent on the plane, at most, and pairs of nodes in all of them."""
+
+
 def silent() -> None:
     """Progress that nobody listens to."""
 
@@ -43,6 +52,7 @@ class Hypergraph:
     ``members[starts[k] : starts[k + 1]]``, each of them once. ``thickness`` is a tube's diameter
     with its clearance. ``places`` (n, d) are those of items that are ``placed`` (n,) already; of
     these the ``held`` ones (n,) stay there, others leave where they are too near to something.
+    ``spacing``: how many times as far apart as usual items are.
     """
 
     radii: Floats
@@ -53,6 +63,7 @@ class Hypergraph:
     places: Floats
     placed: Flags
     held: Flags
+    spacing: float = 1.0
 
     @property
     def dimensions(self) -> int:
@@ -76,10 +87,14 @@ def arranged(graph: Hypergraph, progress: Progress = silent) -> Floats:
     if count == 0:
         return x
     degrees = np.bincount(graph.members, minlength=count)
-    crowded = crowded_radii(degrees, graph.thickness)
+    graph = replace(graph, spacing=USUAL * graph.spacing)
+    crowded = graph.spacing * crowded_radii(degrees, graph.thickness)
     radii = np.maximum(graph.radii, crowded)
-    graph = replace(graph, boxes=_with_room(graph.boxes, AROUND_HUBS * (crowded - LEAST)))
-    star = star_of(radii, graph.starts, graph.members)
+    graph = replace(
+        graph,
+        boxes=_with_room(graph.boxes, AROUND_HUBS * (crowded - LEAST) + (graph.spacing - 1.0)),
+    )
+    star = star_of(radii, graph.starts, graph.members, graph.spacing)
     apart: list[tuple[Indices, Floats]] = []
     near: list[Indices] = []
     for nodes in components_of(star):
@@ -112,17 +127,40 @@ def _alone(
         return np.zeros((1, dimensions))
     part = part_of(star, nodes)
     pairs = pairs_of(part, progress)
-    x = _begun(len(nodes), dimensions) * float(pairs.distances.mean())
-    descend(x, pairs, np.ones(len(nodes), dtype=np.bool_), progress)
+    x = _descended(part, pairs, dimensions, progress)
     order = (0, 1) if dimensions == 2 else (0, 2, 1)
     found = np.ascontiguousarray(turned_to_axes(x, order)[: len(items)])
     move_apart(found, graph.boxes.of_items(items), np.ones(len(items), dtype=np.bool_), progress)
     return found
 
 
-def _begun(count: int, dimensions: int) -> Floats:
-    """Points (n, d) spread over a ball of radius 1, no two alike: where descent begins."""
-    steps = np.arange(1, count + 1)[:, None] * _STEPS[dimensions]
+def _descended(star: Star, pairs: Pairs, dimensions: int, progress: Progress) -> Floats:
+    """Places (k, d) of the nodes of a component, where their stress is little.
+
+    On the plane, of as many starts as there is time for, that with the fewest crossings.
+    """
+    count = len(star.starts) - 1
+    starts = min(max(TRIED // len(pairs.first), 1), STARTS) if dimensions == 2 else 1
+    owners = np.repeat(np.arange(count), np.diff(star.starts))
+    once = owners < star.neighbours
+    best, fewest = np.zeros((count, dimensions)), -1
+    for start in range(starts):
+        x = _begun(count, dimensions, start * count) * float(pairs.distances.mean())
+        descend(x, pairs, np.ones(count, dtype=np.bool_), progress)
+        crossings = 0
+        if starts > 1:
+            crossings = int(crossings_of(x, owners[once], star.neighbours[once]))
+        if fewest < 0 or crossings < fewest:
+            best, fewest = x, crossings
+    return best
+
+
+def _begun(count: int, dimensions: int, after: int = 0) -> Floats:
+    """Points (n, d) spread over a cube, no two alike: where descent begins.
+
+    Those ``after`` so many others.
+    """
+    steps = np.arange(after + 1, after + count + 1)[:, None] * _STEPS[dimensions]
     return np.asarray(2.0 * (steps - np.floor(steps)) - 1.0)
 
 

@@ -29,15 +29,16 @@ class Star:
     lengths: Floats
 
 
-def star_of(radii: Floats, starts: Indices, members: Indices) -> Star:
+def star_of(radii: Floats, starts: Indices, members: Indices, spacing: float = 1.0) -> Star:
     """The star expansion for items of so large ``radii`` (n,).
 
-    The items of hyperedge k are ``members[starts[k] : starts[k + 1]]``, each of them once.
+    The items of hyperedge k are ``members[starts[k] : starts[k + 1]]``, each of them once. Ways
+    between them are ``spacing`` times as long as usual.
     """
     items = len(radii)
     degrees = np.bincount(members, minlength=items)
     owners = items + np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-    lengths = radii[members] + SPOKE * (1.0 + GROWTH * np.sqrt(degrees[members]))
+    lengths = radii[members] + spacing * SPOKE * (1.0 + GROWTH * np.sqrt(degrees[members]))
     first, second = np.concatenate([owners, members]), np.concatenate([members, owners])
     order = np.lexsort((second, first))
     counts = np.bincount(first, minlength=items + len(starts) - 1)
