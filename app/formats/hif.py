@@ -1,6 +1,7 @@
 """The hypergraph interchange format (HIF): nodes become items, edges hyperedges, and back.
 
-Every incidence gets an attachment point of its own on its node's top. An edge of fewer than two
+Nodes are balls on an upright sheet; of a large hypergraph they are blocks in rows, where every
+incidence gets an attachment point of its own on its node's top. An edge of fewer than two
 incidences joins nothing: it is not drawn, but kept in the program's ``data``. Whatever else the
 format says (weights, directions, attributes) is kept in ``data`` too, so that a document written
 again says the same. What is said twice counts once, as it is said first.
@@ -8,6 +9,8 @@ again says the same. What is said twice counts once, as it is said first.
 
 from __future__ import annotations
 
+import math
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -28,10 +31,10 @@ from app.formats.names import short, untaken
 from app.program.base import Data
 from app.program.checking import check
 from app.program.collection import collection_paused
-from app.program.model import Attachment, AttachmentPoint, Hyperedge, Item, Program
+from app.program.model import Attachment, AttachmentPoint, Hyperedge, Item, Layout, Program
 from app.program.parsing import parse
 from app.program.reading import validate
-from app.program.shapes import Box
+from app.program.shapes import Box, Sphere
 from app.settings import Settings
 
 HEIGHT = 0.6
@@ -41,6 +44,17 @@ LETTER = 0.24
 LABEL_MARGIN = 0.3
 NARROWEST, WIDEST = 0.7, 5.0
 """Of a node, as far as its label goes; longer ones are fitted."""
+
+MOST_ON_SHEET = 1_000
+"""Edges of a hypergraph that stands on a sheet, where relaxation is done in seconds; larger ones
+stand in rows."""
+
+SMALLEST, AROUND_END = 0.3, 0.108
+"""Radius of a node as a ball, and what it grows by with the root of the number of its edges: tubes
+of radius 0.08 with a clearance of 0.05 then have room around it."""
+
+LONGEST_BESIDE = 16
+"""Letters of a ball's label."""
 
 CALLED = ("label", "name")
 """Attributes that say what a node or an edge is called, if they are strings."""
@@ -136,7 +150,9 @@ def _program(hypergraph: Hypergraph, told: Told) -> Program:
     )
     edge_ids = _ids(drawn)
     ends = [one for found in drawn.values() for one in found]
-    points = list(_point_ids(ends, edge_ids))
+    in_rows = len(drawn) > MOST_ON_SHEET
+    names = list(_point_ids(ends, edge_ids))
+    points = names if in_rows else _second(drawn, names)
     hyperedges = []
     first = 0
     ids = _ids(told.nodes)
@@ -155,19 +171,73 @@ def _program(hypergraph: Hypergraph, told: Told) -> Program:
         first += len(found)
     return Program(
         name=_text(hypergraph.metadata, ("name",)),
-        items=tuple(_items(told.nodes, ids, ends, points)),
+        items=tuple(
+            _blocks(told.nodes, ids, ends, names)
+            if in_rows
+            else _balls(told.nodes, ids, ends, points)
+        ),
         hyperedges=tuple(hyperedges),
+        layout=Layout() if in_rows else Layout(placement="sheet"),
         data=plain(rest),
     )
 
 
-def _items(
+def _second(drawn: Mapping[Name, Sequence[Incidence]], names: Sequence[str]) -> list[str | None]:
+    """A name for each point where an edge meets a node again, and ``None`` where it needs none."""
+    places = [place for found in drawn.values() for place in _again(found)]
+    return [name if again else None for name, again in zip(names, places, strict=True)]
+
+
+def _again(ends: Sequence[Incidence]) -> Iterator[bool]:
+    known: set[Name] = set()
+    for one in ends:
+        yield one.node in known
+        known.add(one.node)
+
+
+def _balls(
+    nodes: Mapping[Name, Node],
+    ids: Mapping[Name, str],
+    ends: Sequence[Incidence],
+    points: Sequence[str | None],
+) -> Iterator[Item]:
+    """A ball for each node, with room for the tubes of its ``ends``.
+
+    Where an edge meets it again there is a point, on the rim.
+    """
+    degrees = Counter(one.node for one in ends)
+    named: dict[Name, list[str]] = defaultdict(list)
+    for one, point in zip(ends, points, strict=True):
+        if point is not None:
+            named[one.node].append(point)
+    for name, node in nodes.items():
+        radius = round(max(SMALLEST, AROUND_END * math.sqrt(degrees[name])), 3)
+        yield Item(
+            id=ids[name],
+            label=short(_label(name, node.attrs), LONGEST_BESIDE),
+            shape=Sphere(type="sphere", radius=radius),
+            attachment_points=tuple(_on_rim(named[name], radius)),
+            data=plain(node),
+        )
+
+
+def _on_rim(names: Sequence[str], radius: float) -> Iterator[AttachmentPoint]:
+    """Points around a ball, on its plane that faces the reader."""
+    for number, name in enumerate(names):
+        angle = 2 * math.pi * number / len(names)
+        x, z = math.cos(angle), math.sin(angle)
+        yield AttachmentPoint(
+            id=name, position=(radius * x, 0.0, radius * z), direction=(x, 0.0, z)
+        )
+
+
+def _blocks(
     nodes: Mapping[Name, Node],
     ids: Mapping[Name, str],
     ends: Sequence[Incidence],
     points: Sequence[str],
 ) -> Iterator[Item]:
-    """An item for each node, with a place for each of ``ends`` that is its own."""
+    """A block for each node, in rows, with a place for each of ``ends`` that is its own."""
     labels = [_label(name, node.attrs) for name, node in nodes.items()]
     widths = [LETTER * len(label) + LABEL_MARGIN for label in labels]
     numbers = {name: number for number, name in enumerate(nodes)}
