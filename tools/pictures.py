@@ -20,9 +20,15 @@ PICTURES = (
     ("yosys/up3down5", "yosys", 1024, 768),
     ("shapes", "tubeloom", 800, 600),
 )
-LAYERS = ("up3down5-layers", "yosys/up3down5", 1024, 640)
-"""A netlist as a schematic: the picture's name, the example, width and height."""
-
+PLACEMENTS = (
+    ("hif/lesmis", "sheet", 1024, 768),
+    ("hif/lesmis", "ground", 1024, 768),
+    ("hif/lesmis", "space", 1024, 768),
+    ("hif/lesmis", "rows", 1024, 768),
+    ("hif/e-coli", "sheet", 1024, 768),
+    ("yosys/up3down5", "layers", 1024, 640),
+)
+"""Examples, named by their formats, and how their items are placed."""
 
 FINAL_SAMPLES = 64
 
@@ -30,26 +36,30 @@ FINAL_SAMPLES = 64
 def main() -> None:
     """Draw each at twice its size and halve it, so that the finest edges are smooth."""
     document = (ROOT / "examples" / "id3-clause-2-materials.json").read_bytes()
-    wishes = RenderOptions(SceneFormat.PNG, quality="final", effort=Effort(samples=FINAL_SAMPLES))
-    _keep("id3-clause-2-final.png", document, wishes)
+    final = RenderOptions(SceneFormat.PNG, quality="final", effort=Effort(samples=FINAL_SAMPLES))
+    _keep("id3-clause-2-final.png", document, final)
     drawn = (ROOT / "examples" / "id3-clause-2.json").read_bytes()
     _keep("id3-clause-2.svg", drawn, RenderOptions(SceneFormat.SVG))
     for name, source, width, height in PICTURES:
+        document = (ROOT / "examples" / f"{name}.json").read_bytes()
         options = RenderOptions(SceneFormat.PNG, 2 * width, 2 * height, source=source)
-        _halve(Path(name).name, name, options)
-    name, example, width, height = LAYERS
-    layers = (("placement", "layers"),)
-    options = RenderOptions(SceneFormat.PNG, 2 * width, 2 * height, source="yosys", wishes=layers)
-    _halve(name, example, options)
+        _keep_halved(f"{Path(name).name}.png", document, options)
+    for name, placement, width, height in PLACEMENTS:
+        document = (ROOT / "examples" / f"{name}.json").read_bytes()
+        source = Path(name).parent.name
+        wishes = (("placement", placement),)
+        options = RenderOptions(
+            SceneFormat.PNG, 2 * width, 2 * height, source=source, wishes=wishes
+        )
+        _keep_halved(f"{Path(name).name}-{placement}.png", document, options)
 
 
-def _halve(name: str, example: str, options: RenderOptions) -> None:
-    answer = render((ROOT / "examples" / f"{example}.json").read_bytes(), options, Settings())
+def _keep_halved(name: str, document: bytes, options: RenderOptions) -> None:
+    answer = render(document, options, Settings(deadline_seconds=600))
     assert isinstance(answer, Answer)
     picture = Image.open(io.BytesIO(answer.body))
-    target = ROOT / "docs" / "pictures" / f"{name}.png"
-    size = options.width // 2, options.height // 2
-    picture.resize(size, Image.Resampling.LANCZOS).save(target, optimize=True)
+    half = picture.resize((options.width // 2, options.height // 2), Image.Resampling.LANCZOS)
+    half.save(ROOT / "docs" / "pictures" / name, optimize=True)
 
 
 def _keep(name: str, document: bytes, options: RenderOptions) -> None:
