@@ -1,14 +1,11 @@
-"""How readable the layouts of examples are, routed in planes and by relaxation, as a table.
-
-Netlists are also shown in layers.
+"""How readable the layouts of examples are, in rows and in the other modes of placement, as a table.
 
 ``python -m benchmarks.readability [NAME …]``; all are among the examples.
 
 Crossings, and those below 20 degrees, are of middle lines of different hyperedges; hidden is the
 mean share of tubes that is behind others or items; labels are free of which less than a fifth is
 covered. All from one direction, without perspective: the program's own, or that one of `VIEWS` with
-the fewest crossings. Seconds are the routing's alone, in layers the whole layout's, by the clock,
-when kernels are compiled.
+the fewest crossings. Seconds are those of the layout, by the clock, when kernels are compiled.
 """
 
 from __future__ import annotations
@@ -25,10 +22,7 @@ import numpy as np
 from app.formats import registry
 from app.hyperedges.clearance.certificate import certify
 from app.hyperedges.pinches import find_pinches
-from app.hyperedges.route import route
 from app.layout import lay_out
-from app.notations.loader import load_notation
-from app.placement.place import place
 from app.readability.drawing import drawing_of
 from app.readability.projection import Projection, directions
 from app.readability.shape import Shapes, shapes_of
@@ -48,8 +42,11 @@ SCENES = {
 
 NETLIST = "yosys/up3down5"
 
-Way = Literal["planes", "elastic", "layers"]
-WAYS: tuple[Way, ...] = ("planes", "elastic", "layers")
+Way = Literal["planes", "elastic", "ground", "sheet", "space", "layers"]
+WAYS: tuple[Way, ...] = ("planes", "elastic", "ground", "sheet", "space", "layers")
+"""In rows, routed in planes and by relaxation; and the other modes of placement, of which the last
+is for netlists."""
+
 VIEWS = 60
 
 COLUMNS = (
@@ -87,21 +84,17 @@ class Row:
 
 
 def measure(name: str, way: Way) -> Row:
-    """Route one of `SCENES`, or lay it out in layers, and look at it."""
+    """Lay out one of `SCENES` and look at it."""
     data = (EXAMPLES / f"{name}.json").read_bytes()
-    wishes = (("placement", "layers"),) if way == "layers" else ()
+    wishes: tuple[tuple[str, object], ...] = (("placement", way),)
+    if way in {"planes", "elastic"}:
+        wishes = (("placement", "rows"), ("routing", way))
     program = registry.read(SCENES[name], data, Settings(), wishes)
-    clearance = program.layout.clearance or 0.0
-    if way == "layers":
-        begun = time.perf_counter()
-        layout = lay_out(program)
-        placement, routing = layout.placement, layout.routing
-    else:
-        placement = place(program, load_notation(program.notation))
-        begun = time.perf_counter()
-        routing = route(placement, clearance=clearance, routing=way)
+    begun = time.perf_counter()
+    layout = lay_out(program)
     seconds = time.perf_counter() - begun
-    proof = certify(routing, placement, clearance)
+    placement, routing = layout.placement, layout.routing
+    proof = certify(routing, placement, program.layout.clearance or 0.0)
     drawing = drawing_of(routing, placement)
     views = [_projection((x, y, z)) for x, y, z in directions(VIEWS).tolist()]
     return Row(
@@ -141,7 +134,7 @@ def main(names: Sequence[str]) -> int:
     chosen = [name for name in SCENES if not names or name.rpartition("/")[2] in names]
     for way in WAYS:  # kernels compile, or come from their cache, before anything is timed
         measure(NETLIST if way == "layers" else "id3-clause-2", way)
-    ways = {name: WAYS if SCENES[name] == "yosys" else WAYS[:2] for name in chosen}
+    ways = {name: WAYS if SCENES[name] == "yosys" else WAYS[:-1] for name in chosen}
     print(table([measure(name, way) for name in chosen for way in ways[name]]))
     return 0
 

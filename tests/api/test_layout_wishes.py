@@ -46,6 +46,23 @@ def test_a_netlist_is_placed_in_layers_as_is_asked_for(client: httpx.Client) -> 
     assert ask("render", format="png").content.startswith(b"\x89PNG")
 
 
+def test_a_hypergraph_is_placed_as_is_asked_for(client: httpx.Client) -> None:
+    star = {"incidences": [{"edge": e, "node": n} for e in range(6) for n in ("hub", f"n{e}")]}
+    depths = {}
+    for mode in ("rows", "ground", "sheet", "space"):
+        query = {"from": "hif", "placement": mode}
+        response = client.post("/v1/layout", params=query, json=star)
+        numbers = response.raise_for_status().json()
+        assert numbers["clearance"]["certified"]
+        places = [each["center"] for each in numbers["items"]]
+        depths[mode] = [len({round(place[axis], 6) for place in places}) for axis in (1, 2)]
+    assert depths["sheet"][0] == 1 < depths["sheet"][1]
+    # A large ball stands higher than the others.
+    assert depths["ground"][1] <= 2 < depths["ground"][0]
+    assert min(depths["space"]) > 2
+    assert depths["rows"] != depths["ground"]
+
+
 def test_what_is_asked_goes_before_the_document(client: httpx.Client) -> None:
     document = SMALL | {"layout": {"clearance": 0.2}}
     answers = [
