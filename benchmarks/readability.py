@@ -1,4 +1,4 @@
-"""How readable the layouts of examples are, in rows and in the other modes of placement, as a table.
+"""How readable layouts of examples are, in rows and in the other modes of placement, as a table.
 
 ``python -m benchmarks.readability [NAME …]``; all are among the examples.
 
