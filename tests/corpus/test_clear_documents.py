@@ -5,10 +5,7 @@ from pathlib import Path
 import pytest
 
 from app.formats.registry import read
-from app.hyperedges.clearance.certificate import certify
-from app.hyperedges.route import route
-from app.notations.loader import load_notation
-from app.placement.place import place
+from app.layout import judge, lay_out
 from app.settings import Settings
 from tests.hyperedges import sampling
 
@@ -25,14 +22,15 @@ DOCUMENTS = [
 @pytest.mark.parametrize(("name", "source"), DOCUMENTS, ids=[name for name, _ in DOCUMENTS])
 def test_a_document_is_certified_clear(name: str, source: str) -> None:
     program = read(source, (EXAMPLES / f"{name}.json").read_bytes(), Settings())
-    placement = place(program, load_notation(program.notation))
-    clearance = program.layout.clearance
+    layout = lay_out(program)
+    verdict, clearance = judge(layout), program.layout.clearance
+    assert verdict is not None
     assert clearance
-    routing = route(placement, curves="steiner", clearance=clearance)
-    certificate = certify(routing, placement, clearance)
+    certificate = verdict.certificate
     conflicts = certificate.conflicts
     assert list(zip(conflicts.first, conflicts.second, conflicts.lower, strict=True)) == []
     assert certificate.certified
     assert certificate.minimum >= clearance
-    seen = sampling.sample(routing)
-    assert sampling.tubes_too_near(seen, placement.radii, clearance) == set()
+    assert len(verdict.pinches.segments) == 0
+    seen = sampling.sample(layout.routing)
+    assert sampling.tubes_too_near(seen, layout.placement.radii, clearance) == set()
