@@ -32,12 +32,15 @@ $(VENV)/runtime.done: requirements.lock pyproject.toml tools/system-packages.sh 
 	tools/system-packages.sh
 	$(PIP) install --require-hashes -r requirements.lock
 	$(PIP) install --no-deps --editable .
-	@echo "Compiling kernels, once: some two minutes …"
+	@echo "Compiling kernels, once: some minutes …"
 	$(BIN)/tubeloom layout examples/id3-clause-2.json -o $(VENV)/id3.json
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.glb
 	$(BIN)/tubeloom render examples/id3-clause-2.json -o $(VENV)/id3.svg
 	$(BIN)/tubeloom render examples/paper-curves.json -o $(VENV)/paper.glb
+	$(BIN)/tubeloom layout examples/id3-clause-2.json --routing planes -o $(VENV)/planes.json
 	$(BIN)/tubeloom layout examples/in-space.json -o $(VENV)/space.json
+	$(BIN)/tubeloom layout examples/hif/e-coli.json --from hif -o $(VENV)/sheet.json
+	$(BIN)/tubeloom layout examples/yosys/mux4.json --from yosys --placement layers -o $(VENV)/layers.json
 	@touch $@
 
 app/web/built: $(WEB_SOURCES) tools/build-web.sh tools/node.sh | $(VENV)/bin/python

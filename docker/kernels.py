@@ -14,6 +14,7 @@ EXAMPLES = Path("examples")
 CURVES: tuple[dict[str, Any], ...] = (
     {"curves": "prose", "fidelity": "paper", "tube": "patches"},
     {"curves": "symbolic", "closest": "plane"},
+    {"routing": "planes"},
 )
 OUTPUTS = ("a.glb", "a.svg", "a.png", "a.stl")
 
@@ -38,6 +39,8 @@ def work(folder: Path) -> Iterator[list[str]]:
             other.write_text(json.dumps(json.loads(program.read_text()) | {"layout": layout}))
             yield ["layout", str(other), "--patches", "-o", str(folder / "a.json")]
             yield ["render", str(other), "-o", str(folder / "a.glb")]
+    netlist = [str(EXAMPLES / "yosys/up3down5.json"), "--from", "yosys", "--placement", "layers"]
+    yield ["render", *netlist, "-o", str(folder / "a.png")]
 
 
 if __name__ == "__main__":
