@@ -301,6 +301,15 @@ def assert_kept(before: Revision, after: Revision) -> None:
     )
 
 
+def assert_keeps_still(edit: Json, before: Revision, after: Revision) -> None:
+    """Nothing moves or changes its colour that the edit does not concern, and all else is told."""
+    assert_still(edit, before, after)
+    assert_colors_stay(edit, before, after)
+    assert_curves_stay(edit, before, after)
+    assert_told(before, after)
+    assert_kept(before, after)
+
+
 @settings(max_examples=SEQUENCES)
 @given(st.data())
 def test_whatever_an_edit_does_not_concern_keeps_still(data: st.DataObject) -> None:
@@ -308,11 +317,7 @@ def test_whatever_an_edit_does_not_concern_keeps_still(data: st.DataObject) -> N
     for number in range(data.draw(st.integers(1, 4))):
         edit = data.draw(edits(revision.layout.program, number))
         after = revision.edited(edit)
-        assert_still(edit, revision, after)
-        assert_colors_stay(edit, revision, after)
-        assert_curves_stay(edit, revision, after)
-        assert_told(revision, after)
-        assert_kept(revision, after)
+        assert_keeps_still(edit, revision, after)
         revision = after
 
 
@@ -352,11 +357,7 @@ def test_edits_of_what_is_routed_by_relaxation(
     for number in range(data.draw(st.integers(1, 3))):
         edit = data.draw(edits(revision.layout.program, number))
         after = revision.edited(edit)
-        assert_still(edit, revision, after)
-        assert_colors_stay(edit, revision, after)
-        assert_curves_stay(edit, revision, after)
-        assert_told(revision, after)
-        assert_kept(revision, after)
+        assert_keeps_still(edit, revision, after)
         assert_as_clear_as_anew(revision, after)
         revision = after
 
