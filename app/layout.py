@@ -20,6 +20,7 @@ from app.hyperedges.stopping import Allowance, Spent, nothing_spent
 from app.notations.loader import load_notation
 from app.output.clearance_numbers import Verdict
 from app.placement.flat import flattened
+from app.placement.modes import BY_STRESS
 from app.placement.place import place
 from app.placement.placement import Placement
 from app.placement.standing import Standing
@@ -133,7 +134,8 @@ def lay_out(
         )
 
     routing = routed(placement)
-    if previous is None and placement.mode != "rows" and wishes.clearance is not None:
+    may_spread = previous is None and placement.mode in BY_STRESS and not allowance.ran_out
+    if may_spread and wishes.clearance is not None:
         placement, routing = _with_room(
             placement, routing, placed, routed, wishes.clearance, allowance
         )

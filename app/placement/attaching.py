@@ -24,9 +24,9 @@ def attached(program: Program, placed: Placement, standing: Standing | None = No
     """The items that are ``placed``, with the attachments of all hyperedges of the program.
 
     What would end at the same place gets places side by side, and what is almost far enough apart
-    is. After an edit, ends that are attached
-    as they were stay where they were: to the last bit where their item has not moved, and else at
-    the same place of the item. ``placed`` has the radii of all hyperedges.
+    is moved by what is missing. After an edit, ends that are attached as they were stay where they
+    were: to the last bit where their item has not moved, and else at the same place of the item.
+    ``placed`` has the radii of all hyperedges.
     """
     counts = np.array([len(each.attachments) for each in program.hyperedges], dtype=np.int64)
     starts = starts_of(counts)
@@ -55,8 +55,8 @@ def attached(program: Program, placed: Placement, standing: Standing | None = No
         whole, held = _followed(whole, before, held)
     if not placed.stands and is_spread(program):
         whole = all_round(program, whole, held)
-        named = [end.point is None for each in program.hyperedges for end in each.attachments]
-        held = held | np.array(named, dtype=np.bool_)
+        unnamed = [end.point is None for each in program.hyperedges for end in each.attachments]
+        held = held | np.array(unnamed, dtype=np.bool_)
     return apart(program, whole, held)
 
 

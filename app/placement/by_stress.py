@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import Floats
+from app.grouped import starts_of
 from app.placement.labels import front
 from app.placement.modes import Mode
 from app.placement.sized import Sized
@@ -103,7 +104,7 @@ def placed_by_stress(
     has_place[list(stood.places)] = True
     held = np.zeros(len(groups), dtype=np.bool_)
     held[list(stood.held)] = True
-    starts = np.concatenate([[0], np.cumsum([len(each) for each in joined])]).astype(np.int64)
+    starts = starts_of(np.array([len(each) for each in joined], dtype=np.int64))
     members = np.array([number for each in joined for number in each], dtype=np.int64)
     graph = Hypergraph(
         _radii(boxes, len(groups)),

@@ -18,7 +18,7 @@ from app.placement.joined import joined
 from app.placement.labels import label_place
 from app.placement.layers.place import in_layers
 from app.placement.layers.terminals import TooManyError
-from app.placement.modes import Mode
+from app.placement.modes import BY_STRESS, Mode
 from app.placement.placement import LabelPlace, Placement
 from app.placement.rooms import TOUCHING
 from app.placement.sized import Place, Sized
@@ -47,8 +47,8 @@ def place(
     edit, what is ``standing`` stays there to the last bit, but for what the edit concerns: new and
     changed items, and what holds them, which grows around them. What would have to grow over others
     moves to a free place, with all that is in it. Where items are placed in another mode than
-    before, all are placed anew. ``progress`` may raise to end the work.
-    What is placed by what hyperedges join is ``spacing`` times as far apart as usual.
+    before, all are placed anew. ``progress`` may raise to end the work. What is placed by what
+    hyperedges join is ``spacing`` times as far apart as usual.
     """
     mode = mode_of(program, standing)
     if standing is not None and standing.mode != mode:
@@ -81,7 +81,7 @@ def _placed(
     """The items alone, without attachments."""
     relations = family(program)
     stress = None
-    if mode not in {"rows", "layers"}:
+    if mode in BY_STRESS:
         stress = Stress(mode, joined(program, relations, notation), progress, spacing)
     styles = [notation.item_style(item.kind) for item in program.items]
     sized, roots = measure(program, relations, styles, standing, stress)

@@ -6,6 +6,7 @@ import numpy as np
 from numba import njit
 
 from app.arrays import Floats, Indices
+from app.grouped import starts_of
 
 ENDS = 0.02
 """Share of a line at its ends within which it crosses no other: there they meet."""
@@ -26,7 +27,7 @@ def sides_of(first: Floats, last: Floats, owners: Indices, count: int) -> Floats
     lengths = np.bincount(owners, np.linalg.norm(last - first, axis=1), count)
     both = np.concatenate([pairs, pairs[:, ::-1]])
     both = both[np.argsort(both[:, 0], kind="stable")]
-    starts = np.concatenate([[0], np.cumsum(np.bincount(both[:, 0], minlength=count))])
+    starts = starts_of(np.bincount(both[:, 0], minlength=count))
     sides = np.zeros(count)
     for _ in range(ROUNDS):
         for number in np.argsort(-lengths, kind="stable").tolist():

@@ -8,6 +8,7 @@ import numpy as np
 from numba import njit
 
 from app.arrays import Floats, Indices
+from app.grouped import rows_of, starts_of
 
 SPOKE = 1.8
 """Ideal length from the rim of an item to the centre of its hyperedge, document units."""
@@ -57,9 +58,8 @@ def part_of(star: Star, nodes: Indices) -> Star:
     numbers = np.empty(len(star.starts) - 1, dtype=np.int64)
     numbers[nodes] = np.arange(len(nodes))
     counts = np.diff(star.starts)[nodes]
-    starts = np.concatenate([[0], np.cumsum(counts)])
-    rows = np.repeat(star.starts[nodes] - starts[:-1], counts) + np.arange(starts[-1])
-    return Star(starts, numbers[star.neighbours[rows]], star.lengths[rows])
+    rows = rows_of(star.starts, nodes)
+    return Star(starts_of(counts), numbers[star.neighbours[rows]], star.lengths[rows])
 
 
 @njit(cache=True, error_model="numpy")
